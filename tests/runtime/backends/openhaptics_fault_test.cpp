@@ -1,4 +1,6 @@
 // Failures of the HD device, and the motors' force after them.
+#include <limits>
+
 #include "core/support/paper_scene.hpp"
 #include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -125,6 +127,12 @@ TEST_CASE("hot motors get no force") {
   bool any = false;
   for (const auto& record : fake_hd_log()) any = any || force_at(record);
   CHECK_FALSE(any);
+}
+
+TEST_CASE("a motor temperature that is not a number is a fault, also beside others") {
+  InTissue t(std::numeric_limits<double>::quiet_NaN());
+  t.go();
+  CHECK(t.loop->latest().fault == Fault::non_finite_input);
 }
 
 TEST_CASE("stop leaves zero force; a second stop, or the destructor of a running device, is harmless") {

@@ -3,11 +3,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <thread>
 
 #include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_operation.hpp"
 
 namespace punctura::hd {
 
@@ -16,8 +16,17 @@ namespace {
 using State = BackendStatus::State;
 
 /// Shared by the scheduler's thread and the thread that waits for it.
-struct Counting {
-  const Session& session;
+struct Counting : Work {
+  Counting(const Session& session, double duration, std::int64_t (*clock)() noexcept)
+      : hd(session.hd()),
+        handle(session.handle()),
+        tells_calibration(session.tells_calibration()),
+        duration_ns(static_cast<std::int64_t>(duration * 1e9)),
+        now_ns(clock) {}
+
+  const Interface& hd;
+  DeviceHandle handle;
+  bool tells_calibration;
   std::int64_t duration_ns;
   std::int64_t (*now_ns)() noexcept;
 
@@ -27,51 +36,43 @@ struct Counting {
   int renewals = 0;
   ErrorInfo error{success, 0, no_device};
   Warnings warnings{};
-  std::atomic<bool> over{false};
+  std::atomic<bool> given_up{false};
 
-  bool tick() noexcept {
-    const Interface& hd = session.hd();
+  bool call() noexcept {
+    if (given_up.load(std::memory_order_relaxed)) return false;
     last = now_ns();
     if (ticks++ == 0) first = last;
-    hd.begin_frame(session.handle());
+    hd.begin_frame(handle);
     // A calibration may take some time to show: check it every 32 ticks, renew it four times at most.
-    if (ticks % 32 == 1 && session.tells_calibration()) {
+    if (ticks % 32 == 1 && tells_calibration) {
       calibration = hd.check_calibration();
       if (calibration == calibration_needs_update && renewals < 4) {
         ++renewals;
         hd.update_calibration(hd.check_calibration_style());
       }
     }
-    hd.end_frame(session.handle());  // a frame without a force sends zero
+    hd.end_frame(handle);  // a frame without a force sends zero
     error = take_errors(hd, warnings);
     return error.code == success && last - first < duration_ns;
   }
 };
 
-std::uint32_t count_tick(void* counting) {
-  auto* c = static_cast<Counting*>(counting);
-  if (c->over.load(std::memory_order_relaxed)) return done;
-  if (c->tick()) return again;
-  c->over.store(true, std::memory_order_release);
-  return done;
-}
-
 std::string hertz(double rate) { return decimal_text(rate, 6) + " Hz"; }
 
-double run_once(std::unique_ptr<Counting>& counting, double patience) {
+double run_once(const Lent<Counting>& counting, double patience) {
   Counting& c = *counting;
-  const Interface& hd = c.session.hd();
-  const OperationHandle operation = hd.schedule(&count_tick, &c, highest_priority);
+  const Interface& hd = c.hd;
+  const OperationHandle operation = schedule(hd, counting);
   hd.start_scheduler();
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
-  while (!c.over.load(std::memory_order_acquire) && std::chrono::steady_clock::now() < until)
+  while (!c.left.load(std::memory_order_acquire) && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const bool over = c.over.exchange(true);
+  const bool over = c.left.load(std::memory_order_acquire);
+  c.given_up = true;
   hd.stop_scheduler();
   hd.unschedule(operation);
   const ErrorInfo after = take_errors(hd);
   if (!over) {
-    counting.release();  // never freed, in case the scheduler calls later
     const std::string why = after.code != success && after.code != bad_handle ? " " + describe(after) + "." : "";
     throw Refused(State::fault, "The HD scheduler does not call: check the device's power and cable." + why);
   }
@@ -110,7 +111,7 @@ Trial try_out(const Session& session, double wanted_rate, double duration, doubl
   // The rate counts for the whole run, so measure again if the computer was busy.
   int renewals = 0;
   for (int attempt = 0; attempt < 3; ++attempt) {
-    std::unique_ptr<Counting> counting(new Counting{session, static_cast<std::int64_t>(duration * 1e9), now_ns});
+    const Lent<Counting> counting(new Counting(session, duration, now_ns));
     trial.rate = run_once(counting, duration + patience);
     require_calibration(hd, counting->calibration);
     renewals += counting->renewals;

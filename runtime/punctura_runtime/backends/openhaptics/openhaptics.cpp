@@ -39,30 +39,30 @@ OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
       trial_(hd::try_out(session_, options.rate, options.trial, options.patience, options.now_ns)),
       info_(session_.info()) {
   info_.rate = trial_.rate;
-  begin_ns_ = options.now_ns();
-  sample_.axis = {0, 0, -1};  // without orientation: away from the user
+  lend();
+}
+
+void OpenHapticsDevice::lend() {
+  lent_.emplace_back(new hd::Ticking(session_, options_.now_ns));
+  ticking_ = lent_.back().get();
 }
 
 void OpenHapticsDevice::start(Tick tick) {
   const std::lock_guard lock(control_);
   refuse_second_loop(running_);
-  tick_ = tick;
-  stopping_ = ended_ = inside_ = false;
-  ticks_ = 0;
-  farewells_ = 0;
-  last_call_ = options_.now_ns();
-  ending_ = Ending::none;
+  if (!ticking().left) lend();  // a call of the run before may still come
+  ticking().begin(tick);
 
   hd_.make_current_device(session_.handle());
   hd::take_errors(hd_);
   hd_.enable(hd::force_output);
-  operation_ = hd_.schedule(&OpenHapticsDevice::call, this, hd::highest_priority);
+  operation_ = hd::schedule(hd_, lent_.back());
   hd_.set_scheduler_rate(trial_.set);  // in case the library has lost it since the trial
   const hd::ErrorInfo refusal = hd::take_errors(hd_);
   if (refusal.code == hd::success) {
     hd_.start_scheduler();
     running_ = true;
-    if (soon(first_call, [&] { return ticks_ != 0; })) return;
+    if (soon(first_call, [&] { return ticking().ticks != 0; })) return;
   }
   halt();
   throw DeviceError(refusal.code == hd::success
@@ -71,8 +71,8 @@ void OpenHapticsDevice::start(Tick tick) {
 }
 
 void OpenHapticsDevice::stop() noexcept {
-  if (running_ && ticking_thread_.load() == std::this_thread::get_id() && inside_) {
-    stopping_ = true;  // called by the tick itself: the next stop() from another thread does the rest
+  if (running_ && ticking().thread.load() == std::this_thread::get_id() && ticking().inside) {
+    ticking().stop_soon();  // called by the tick itself: the next stop() from another thread does the rest
     return;
   }
   const std::lock_guard lock(control_);
@@ -81,28 +81,30 @@ void OpenHapticsDevice::stop() noexcept {
 
 /// The scheduler's last frame for this device sends zero force.
 void OpenHapticsDevice::halt() noexcept {
-  stopping_ = true;
-  soon(last_call, [&] { return ended_.load(); });
+  ticking().end();
+  soon(last_call, [&] { return ticking().left.load(); });
   hd_.stop_scheduler();
   hd_.unschedule(operation_);
-  soon(leaving, [&] { return !inside_; });
-  if (!ended_.exchange(true))
-    zero_frame();  // the scheduler did not call any more; once it is stopped, this thread may send a frame
+  soon(leaving, [&] { return !ticking().inside; });
+  if (!ticking().ended.exchange(true))
+    ticking().zero_frame();  // the scheduler did not call any more; once it is stopped, this thread may send a frame
   hd_.disable(hd::force_output);
-  hd::take_errors(hd_, warnings_);
+  hd::take_errors(hd_, ticking().warnings);
   running_ = false;
 }
 
 std::string OpenHapticsDevice::trouble() const {
-  switch (ending_.load()) {
+  using Ending = hd::Ticking::Ending;
+  switch (ticking().ending.load()) {
     case Ending::none: break;
     case Ending::error:
-      return "Ticks have ended. " + hd::describe({error_code_, error_internal_, session_.handle()}) + ".";
+      return "Ticks have ended. " + hd::describe({ticking().error_code, ticking().error_internal, session_.handle()}) +
+             ".";
     case Ending::calibration:
       return "Ticks have ended: the device does not know any more where its stylus is. "
              "Stop, then calibrate and open it again.";
   }
-  const double silent = static_cast<double>(options_.now_ns() - last_call_) * 1e-9;
+  const double silent = static_cast<double>(options_.now_ns() - ticking().last_call) * 1e-9;
   if (!running_ || silent < 0.1) return {};
   return "The HD scheduler has not called for " + decimal_text(silent, 2) +
          " s: switch the device off if it pulls, then stop.";
@@ -111,11 +113,11 @@ std::string OpenHapticsDevice::trouble() const {
 std::vector<std::string> OpenHapticsDevice::statements() const {
   std::vector<std::string> all{"device: opened as \"" + session_.name() + "\""};
   all.insert(all.end(), trial_.told.begin(), trial_.told.end());
-  all.push_back("thread: the HD library's own, with the priority and the processors that the library gave it");
-  for (std::uint32_t i = 0; i < warnings_.counts.size(); ++i)
-    if (const auto count = warnings_.counts[i].load(); count > 0)
+  all.emplace_back("thread: the HD library's own, with the priority and the processors that the library gave it");
+  for (std::uint32_t i = 0; i < ticking().warnings.counts.size(); ++i)
+    if (const auto count = ticking().warnings.counts[i].load(); count > 0)
       all.push_back("warned " + std::to_string(count) + " times: " + hd::describe({hd::warm_motors + i, 0, 0}));
-  all.push_back("this back-end: tested against simulated libraries only");
+  all.emplace_back("this back-end: tested against simulated libraries only");
   return all;
 }
 

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <thread>
+#include <vector>
 
 #include "punctura/device/device.hpp"
 #include "punctura/model/omni.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
+#include "punctura_runtime/backends/openhaptics/openhaptics_tick.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
@@ -40,20 +40,9 @@ class OpenHapticsDevice : public Device {
   std::vector<std::string> statements() const override;
 
  private:
-  enum class Ending { none, error, calibration };
-
-  // openhaptics.cpp: on the thread that starts and stops.
   void halt() noexcept;
-
-  // openhaptics_tick.cpp: on the scheduler's thread.
-  static std::uint32_t call(void* self) noexcept;
-  bool one_tick() noexcept;
-  hd::ErrorInfo read() noexcept;
-  void give(const Tick::Force& force) noexcept;
-  bool zero_frame() noexcept;
-  void leave(Ending why, const hd::ErrorInfo& error) noexcept;
-  static constexpr std::uint64_t temperature_every = 64, calibration_every = 256;  ///< ticks
-  static constexpr int most_farewells = 32;                                        ///< frames of zero force
+  void lend();
+  hd::Ticking& ticking() const noexcept { return *ticking_; }
 
   OpenHapticsOptions options_;
   hd::Session session_;
@@ -63,21 +52,9 @@ class OpenHapticsDevice : public Device {
   std::mutex control_;  ///< held by start() and stop(), never by the tick
   hd::OperationHandle operation_ = 0;
 
-  // Used by the scheduler's thread while it calls.
-  Tick tick_{nullptr, nullptr};
-  std::int64_t begin_ns_ = 0;  ///< when it was opened: the zero of all sample times
-  DeviceSample sample_{};
-  int farewells_ = 0;
-
-  // Shared between threads.
-  std::atomic<bool> running_{false}, stopping_{false}, inside_{false}, ended_{true};
-  std::atomic<std::thread::id> ticking_thread_{};
-  std::atomic<std::int64_t> last_call_{0};
-  std::atomic<std::uint64_t> ticks_{0};
-  std::atomic<Ending> ending_{Ending::none};
-  std::atomic<std::uint32_t> error_code_{0};
-  std::atomic<int> error_internal_{0};
-  hd::Warnings warnings_;
+  std::atomic<bool> running_{false};
+  std::vector<hd::Lent<hd::Ticking>> lent_;  ///< to the scheduler; the last one is the present one
+  std::atomic<hd::Ticking*> ticking_{nullptr};
 };
 
 }  // namespace punctura
