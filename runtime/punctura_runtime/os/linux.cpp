@@ -19,13 +19,13 @@ namespace punctura::os {
 
 std::int64_t now_ns() noexcept {
   timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(CLOCK_BOOTTIME, &t);  // CLOCK_MONOTONIC stands still while the computer sleeps
   return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
 void sleep_until_ns(std::int64_t time) noexcept {
   const timespec t{static_cast<time_t>(time / 1'000'000'000), static_cast<long>(time % 1'000'000'000)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  while (clock_nanosleep(CLOCK_BOOTTIME, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
 }
 

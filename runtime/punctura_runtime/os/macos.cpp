@@ -31,11 +31,13 @@ std::uint64_t ticks_from_ns(std::int64_t ns) noexcept {
 
 }  // namespace
 
-std::int64_t now_ns() noexcept {
-  return static_cast<std::int64_t>(mach_absolute_time() * timebase().numer / timebase().denom);
+std::int64_t now_ns() noexcept {  // mach_absolute_time() stands still while the computer sleeps
+  return static_cast<std::int64_t>(mach_continuous_time() * timebase().numer / timebase().denom);
 }
 
-void sleep_until_ns(std::int64_t time) noexcept { mach_wait_until(ticks_from_ns(time)); }
+void sleep_until_ns(std::int64_t time) noexcept {
+  if (const std::int64_t left = time - now_ns(); left > 0) mach_wait_until(mach_absolute_time() + ticks_from_ns(left));
+}
 
 std::vector<RealtimeItem> make_realtime(const RealtimeSettings& settings) {
   std::vector<RealtimeItem> items;

@@ -9,7 +9,7 @@
 
 namespace punctura::os {
 
-/// A monotonic clock, ns.
+/// A monotonic clock, ns. It goes on while the computer sleeps: the first tick after that is late, which is a fault.
 std::int64_t now_ns() noexcept;
 
 /// Sleeps until that time of now_ns(). May wake late, never early.

@@ -70,7 +70,7 @@ void sleep_for(std::int64_t ns) noexcept {
 
 }  // namespace
 
-std::int64_t now_ns() noexcept {
+std::int64_t now_ns() noexcept {  // the performance counter goes on while the computer sleeps
   static const std::int64_t frequency = [] {
     LARGE_INTEGER f;
     QueryPerformanceFrequency(&f);
