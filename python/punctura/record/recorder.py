@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import os
 import threading
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
@@ -28,6 +30,8 @@ from punctura.results import JsonObject
 from punctura.ticks import COMMAND_SCENE, Ticks
 
 INTERVAL_S = 0.1  # between two batches
+_RING_S = 30.0  # of ticks, where 32 MB hold them: on a busy computer the reader may have to wait
+_PRIORITY = 10  # of the reader under SCHED_FIFO, where the system permits it: below every device's
 _BACKLOG_BYTES = 64 << 20  # about a minute at 1600 Hz
 _ROWS_AT_ONCE = 4096  # maximum
 _BATCH_BYTES = 8 << 20  # approximate
@@ -56,9 +60,9 @@ class Recorder:
         about: JsonObject | None = None,
         thumb: ThumbLoop | None = None,
     ) -> None:
-        """Call before loop.start(). capacity: number of snapshots in the ring; 32 MB at most, and a note in the file
-        says if it was reduced. about: further JSON data for the file's description. thumb: the loop of a second device,
-        which is described, too.
+        """Call before loop.start(). capacity: number of snapshots in the ring, by default 30 s of ticks; 32 MB at most,
+        and a note in the file says if it was reduced. about: further JSON data for the file's description. thumb: the
+        loop of a second device, which is described, too.
 
         Raises RecordingError if the file cannot be written.
         """
@@ -70,7 +74,7 @@ class Recorder:
         self._header = describe_run(loop, about, thumb)
         self._encoder = Encoder(self._header)
         self._scenes = SceneLog(loop)
-        self._listener = loop.listen(capacity)
+        self._listener = loop.listen(int(_RING_S * loop.device.info.rate) if capacity is None else capacity)
         self._backlog = Backlog(_BACKLOG_BYTES)
         self._began = self._next_tick = int(loop.report()["ticks"])  # the next tick to come, if none is missing
         self._width = len(loop.scene.membranes)  # number of membranes in the columns of the present stream
@@ -176,6 +180,9 @@ class Recorder:
             raise RecordingError(f"{self._part} cannot be {what}: {bad.strerror}") from None
 
     def _read(self) -> None:
+        if hasattr(os, "sched_setscheduler"):
+            with suppress(OSError):  # without the right to it
+                os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(_PRIORITY))
         while not self._stop.wait(INTERVAL_S):
             self._empty_ring()
         self._empty_ring()

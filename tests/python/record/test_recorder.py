@@ -5,14 +5,39 @@ from __future__ import annotations
 import errno
 import os
 import sys
+import threading
+from contextlib import suppress
 
 import numpy as np
 import pytest
 from punctura import load_scene
 from punctura._core import GateLimits, ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, open_recording
+from waiting import wait_until
 
 from .conftest import STROKES, Run
+
+
+def policy_with_priority():
+    """The scheduling of a thread that asks for real-time priority on this system."""
+    found = []
+
+    def ask():
+        with suppress(OSError):
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(10))
+        found.append(os.sched_getscheduler(0))
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    thread.join()
+    return found[0]
+
+
+def test_a_busy_computer_has_half_a_minute_before_a_tick_is_lost(tmp_path):
+    loop = ServoLoop(SimulatedDevice(STROKES, rate=1600), load_scene("k06-fig10"))
+    with Recorder(loop, tmp_path / "run.parquet") as recorder:
+        assert recorder._listener.capacity == 48_000
+        wait_until(lambda: os.sched_getscheduler(recorder._reader.native_id) == policy_with_priority())
 
 
 def test_the_file_holds_every_tick_and_every_number_of_it(start):
