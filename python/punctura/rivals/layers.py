@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import PuncturaError, Rival
+from punctura.files.toml import read_text
 from punctura.files.whole_file import write_whole
 from punctura.rivals.path import Path
 
@@ -47,9 +48,9 @@ def save_layers(file: str | os.PathLike[str], layers: tuple[Layer, ...]) -> None
 
 
 def load_layers(file: str | os.PathLike[str]) -> tuple[Layer, ...]:
-    """Reads layers from a file of save_layers(). Raises PuncturaError, OSError."""
+    """Reads layers from a file of save_layers(). Raises PuncturaError."""
     try:
-        held: Any = json.loads(FilePath(file).read_text(encoding="utf-8"))
+        held: Any = json.loads(read_text(FilePath(file), "rival"))
         if not isinstance(held, Mapping) or held.get("format") != FORMAT:
             raise PuncturaError(f'{file}: is no file of rivals: it must have "format": "{FORMAT}"')
         return tuple(Layer(float(one["surface_m"]), Rival(one["rival"], one["numbers"])) for one in held["layers"])

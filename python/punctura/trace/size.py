@@ -21,11 +21,11 @@ def check_file(path: Path) -> None:
         raise TraceError(f"{path}: is a pipe or a device; save the trace in a file")
 
 
-def check_bytes(path: Path) -> None:
-    """Raises TraceError for a file that is too large, OSError."""
+def check_bytes(path: Path, most: int = MOST_BYTES, what: str = "") -> None:
+    """Raises TraceError for a file of more than `most` bytes, OSError. what: it holds, after the number in the text."""
     size = path.stat().st_size
-    if size > MOST_BYTES:
-        text = f"{path}: has {size / 1e9:,.1f} GB; the limit is {MOST_BYTES / 1e9:g} GB"
+    if size > most:
+        text = f"{path}: has {size / 1e9:,.1f} GB{what}; the limit is {most / 1e9:g} GB"
         raise TraceError(f"{text}. Export only depth, force and time, or fewer rows")
 
 

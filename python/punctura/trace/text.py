@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import csv
-import re
+import io
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -15,20 +16,18 @@ from numpy.typing import NDArray
 
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.heading import column_names, first_row
-from punctura.trace.size import LONGEST_NAME, MOST_COLUMNS, check_size
+from punctura.trace.lines import is_comment, read_lines, survey
+from punctura.trace.size import check_size
 from punctura.trace.trace import TraceError
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer
 
 Array = NDArray[np.float64]
 
 _DELIMITERS = (";", "\t", ",")  # a comma may be the decimal point of the others
-_LOOKED_AT = (
-    200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
-)
-_LARGE, _PIECE = 100_000_000, 1 << 24  # bytes
-_COMMENT = re.compile(r"^[#%].*\n", re.MULTILINE)
-_EMPTY = re.compile(r"^[^\S\n]*\n", re.MULTILINE)
-_SPACES = re.compile(r"[^\S\n]+")
-_AT_ENDS = re.compile(r"^ | $", re.MULTILINE)
+_BLOCK = 1 << 22  # bytes: more than a line has
+_MOST_BROKEN = 1_000_000  # rows with another number of cells than the last ones
 
 
 def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
@@ -40,32 +39,24 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     Lines above the table are left out, but for the names of the columns and their units. Rows with another number of
     cells are NaN.
     """
-    _check_large(path)
-    text = _text_of(path, path.read_bytes())
-    rows = _COMMENT.sub("", text) if _COMMENT.search(text) else text
-    if not rows:
+    found = survey(path)
+    if not found.rows:
         raise TraceError(f"{path}: is empty")
-    delimiter = _delimiter(_last_lines(rows))
-    if delimiter == " ":
-        text, rows = _single_spaced(text), _single_spaced(rows)
-    looked_at = _first_lines(rows) + _last_lines(rows)
-    check_size(path, 0, max(1 + line.count(delimiter) for line in looked_at))
-    if max(map(len, looked_at)) > LONGEST_NAME * MOST_COLUMNS:
-        raise TraceError(f"{path}: a line has more than {LONGEST_NAME * MOST_COLUMNS:,} characters; export it again")
-    last = [_cells(line, delimiter) for line in _last_lines(rows)]
+    delimiter = _delimiter(found.last)
+    head, tail = ([_spaced(line, delimiter) for line in lines] for lines in (found.first, found.last))
+    check_size(path, 0, max(1 + line.count(delimiter) for line in head + tail if not is_comment(line)))
+    last = [_cells(line, delimiter) for line in tail]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
-    check_size(path, rows.count("\n"), width)
+    check_size(path, found.rows, width)
     mark = decimal or decimal_in(cell for row in last for cell in row)
-    lines = _first_lines(text)
-    head = [[] if _is_comment(line) else _cells(line, delimiter) for line in lines]
-    first = first_row(head, width, mark)
-    if first == len(head):
+    above = [[] if is_comment(line) else _cells(line, delimiter) for line in head]
+    first = first_row(above, width, mark)
+    if first == len(above):
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
-    names = column_names([_cells(line.lstrip("#% "), delimiter) for line in lines[:first]], width)
-    above = sum(len(line) + 1 for line in lines[:first] if not _is_comment(line))
-    table, left_out = _parsed(path, rows[above:], names, delimiter)
-    del text, rows
+    names = column_names([_cells(line.lstrip("#% "), delimiter) for line in head[:first]], width)
+    rows = _Rows(path, found.encoding, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
+    table, left_out = _parsed(path, rows, names, delimiter)
     try:
         read = {name: _numbers(table[name], mark, decimal is not None) for name in names}
     except DoubtfulNumber as doubt:
@@ -76,67 +67,54 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
     return {name: np.insert(cells, left_out, np.nan) for name, cells in read.items()}
 
 
-def _text_of(path: Path, data: bytes) -> str:
-    """The text of a file that holds `data`, without empty lines; each line ends in a newline. Raises TraceError.
+class _Rows(io.RawIOBase):
+    """The rows of numbers as bytes, for Arrow: without comments and the lines above."""
 
-    It is no list of lines: that takes many times as much memory.
-    """
-    text = _decoded(path, data)
-    if "\r" in text:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    if not text.endswith("\n"):
-        text += "\n"
-    return _EMPTY.sub("", text) if _EMPTY.search(text) else text
+    def __init__(self, path: Path, encoding: str, delimiter: str, skip: int) -> None:
+        super().__init__()
+        self._pieces = self._encoded(path, encoding, delimiter, skip)
+        self._left = memoryview(b"")
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: WriteableBuffer) -> int:
+        into = memoryview(buffer)
+        while not len(self._left):
+            piece = next(self._pieces, None)
+            if piece is None:
+                return 0
+            self._left = memoryview(piece)
+        count = min(len(into), len(self._left))
+        into[:count] = self._left[:count]
+        self._left = self._left[count:]
+        return count
+
+    @staticmethod
+    def _encoded(path: Path, encoding: str, delimiter: str, skip: int) -> Iterator[bytes]:
+        for lines in read_lines(path, encoding):
+            rows = [_spaced(line, delimiter) + "\n" for line in lines if not is_comment(line)]
+            yield "".join(rows[skip:]).encode()
+            skip = max(0, skip - len(rows))
 
 
-def _is_comment(line: str) -> bool:
-    return line.startswith(("#", "%"))
-
-
-def _single_spaced(text: str) -> str:
-    return _AT_ENDS.sub("", _SPACES.sub(" ", text))
-
-
-def _first_lines(text: str) -> list[str]:
-    return text.split("\n", _LOOKED_AT)[:-1][:_LOOKED_AT]
-
-
-def _last_lines(text: str) -> list[str]:
-    return text[:-1].rsplit("\n", _LOOKED_AT)[-_LOOKED_AT:]
+def _spaced(line: str, delimiter: str) -> str:
+    """The line with single spaces, if these are the delimiter."""
+    return " ".join(line.split()) if delimiter == " " else line
 
 
 def _numbers(cells: pa.ChunkedArray, mark: Decimal, asked: bool) -> Array:
     """A column of text as numbers. Arrow reads plain numbers, in a fraction of the memory; the rest goes one by one."""
+    return np.concatenate([np.empty(0), *(_part(chunk, mark, asked) for chunk in cells.chunks)])
+
+
+def _part(cells: pa.Array, mark: Decimal, asked: bool) -> Array:
     if mark == ".":
         try:
-            return np.asarray(cells.cast(pa.float64()).to_numpy())
+            return np.asarray(cells.cast(pa.float64()).to_numpy(zero_copy_only=False))
         except pa.ArrowInvalid:
             pass
     return numbers(cells.to_pylist(), mark, asked)
-
-
-def _check_large(path: Path) -> None:
-    """Raises TraceError for a large file with too many numbers, before memory is taken for all of them."""
-    if path.stat().st_size < _LARGE:
-        return
-    with path.open("rb") as file:
-        first = file.read(_PIECE)
-        count = first.count(b"\n") + sum(piece.count(b"\n") for piece in iter(lambda: file.read(_PIECE), b""))
-    lines = _last_lines(_text_of(path, first))[:-1]  # the last one is cut
-    delimiter = _delimiter(lines)
-    widths = Counter(len(_cells(line, delimiter)) for line in lines)
-    check_size(path, count, widths.most_common(1)[0][0] if widths else 1)
-
-
-def _decoded(path: Path, data: bytes) -> str:
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return data.decode("utf-16", errors="replace")
-    if b"\0" in data[:4096]:
-        raise TraceError(f"{path}: is no text, Parquet, MAT or XLSX file; export the table as CSV")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("cp1252", errors="replace")  # what programs on Windows write in western countries
 
 
 def _delimiter(lines: Sequence[str]) -> str:
@@ -157,18 +135,18 @@ def _cells(line: str, delimiter: str) -> list[str]:
         return [line]
 
 
-def _parsed(path: Path, rows: str, names: list[str], delimiter: str) -> tuple[pa.Table, list[int]]:
+def _parsed(path: Path, rows: _Rows, names: list[str], delimiter: str) -> tuple[pa.Table, list[int]]:
     """The cells of the columns as text, and in front of which a row of another width was left out."""
     broken: list[int] = []
 
     def left_out(row: pyarrow.csv.InvalidRow) -> str:
         broken.append(row.number - 1)
-        return "skip"
+        return "skip" if len(broken) < _MOST_BROKEN else "error"
 
     try:
         table = pyarrow.csv.read_csv(
-            pa.BufferReader(rows.encode()),
-            pyarrow.csv.ReadOptions(column_names=names, use_threads=False),  # so the number of a row is known
+            io.BufferedReader(rows),
+            pyarrow.csv.ReadOptions(column_names=names, use_threads=False, block_size=_BLOCK),  # so a row has a number
             pyarrow.csv.ParseOptions(delimiter=delimiter, invalid_row_handler=left_out),
             pyarrow.csv.ConvertOptions(column_types=dict.fromkeys(names, pa.string())),
         )

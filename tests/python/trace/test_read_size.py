@@ -95,14 +95,58 @@ def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
     assert said == []
 
 
-def test_a_large_text_file_with_too_many_numbers_is_refused_before_it_is_read(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.trace.text._LARGE", 10_000)
-    monkeypatch.setattr("punctura.trace.text._PIECE", 1_000)
+def test_a_text_file_with_too_many_numbers_is_refused_before_they_are_read(tmp_path, monkeypatch):
     monkeypatch.setattr("punctura.trace.size.MOST_NUMBERS", 5_000)
-    monkeypatch.setattr("pathlib.Path.read_bytes", lambda path: pytest.fail("read"))
+    monkeypatch.setattr("punctura.trace.text._parsed", lambda *_: pytest.fail("read"))
     (tmp_path / "a.csv").write_text("time_s;depth_mm;force_N\n" + 2_000 * "0;1;2\n")
     with pytest.raises(TraceError, match=r"a.csv: holds 6,003 numbers or more; the limit is 5,000. Export only depth"):
         read_trace(tmp_path / "a.csv")
+
+
+ROWS = "".join(f"{0.001 * i:.4f},{1e-5 * i:.6f},{0.1 * (i % 100):.5f}\n" for i in range(1000))
+ODD = {  # and what is said of it
+    "blank": (50_000_000 * b"\n", "is empty"),
+    "spaces": (1_000_000 * b"   \t\r\n", "is empty"),
+    "sparse": (9 * (999_999 * b"\n" + b"0.1,2,3\n"), "no column is known to be the depth"),
+    "comments": (2_000_000 * b"#\n", "is empty"),
+    "ragged": (ROWS.encode() + 2_000_000 * b"1\n" + ROWS.encode(), "is no table of numbers"),
+    "hole": (b"time_s,depth_mm,force_N\n" + ROWS.encode() + 10_000_000 * b"\0", "a line has more than 200,000 char"),
+    "spaced": (20 * ROWS.replace(",", 8 * " ").encode(), "no column is known to be the depth"),
+}
+
+
+def test_what_is_hardly_a_table_takes_little_memory(tmp_path):
+    paths = [tmp_path / f"{name}.csv" for name in ODD]
+    for path, (data, _) in zip(paths, ODD.values(), strict=True):
+        path.write_bytes(data)
+    for told, path, (_, words) in zip(in_little_memory(*paths), paths, ODD.values(), strict=True):
+        assert told.startswith(f"{path}: {words}")
+
+
+def test_a_text_has_a_smaller_limit_than_a_packed_file(tmp_path):
+    with (tmp_path / "a.csv").open("wb") as file:
+        file.write(b"time_s,depth_mm,force_N\n" + ROWS.encode())
+        file.truncate(1_900_000_000)
+    with pytest.raises(TraceError, match=r"a.csv: has 1.9 GB of text; the limit is 0.5 GB. Export only depth"):
+        read_trace(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("beginning", [b"time", b"PAR", b"\xff\xff\xff\xff\xff\xff\xff\x7f"])
+def test_the_first_bytes_of_a_text_are_no_length(tmp_path, beginning):
+    with (tmp_path / "a.csv").open("wb") as file:
+        file.write(beginning + b"_s,depth_mm,force_N\n")
+        file.truncate(3_000_000_000)
+    assert "has 3.0 GB; the limit is 2 GB" in "".join(in_little_memory(tmp_path / "a.csv"))
+
+
+def test_lines_that_cross_the_pieces_are_read_whole(tmp_path, monkeypatch):
+    plain, small = tmp_path / "a.csv", tmp_path / "b.csv"
+    for path, end in ((plain, "\n"), (small, "\r\n")):
+        path.write_bytes(("% made by hand\n\ntime_s,depth_mm,force_N\n" + ROWS).replace("\n", end).encode())
+    expected = read_trace(plain)
+    monkeypatch.setattr("punctura.trace.lines._PIECE", 7)
+    read = read_trace(small)
+    assert np.array_equal(read.force, expected.force) and np.array_equal(read.time, expected.time)
 
 
 @pytest.mark.parametrize("part, size", [("xl/styles.xml", 9_000_000), ("xl/sharedStrings.xml", 65_000_000)])
