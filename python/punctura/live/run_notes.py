@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 from punctura import Plant
 from punctura._core import ServoLoop, needed_damping
-from punctura.live.silence import HELD_BY_NOBODY
 from punctura.record.room import room_note
 
 
@@ -15,7 +16,7 @@ def run_notes(loop: ServoLoop) -> list[str]:
 
 def damping_note(loop: ServoLoop) -> str:
     """The friction that the device needs, because no device states its own; empty for a device that nobody holds."""
-    if isinstance(loop.device, HELD_BY_NOBODY):
+    if math.isinf(loop.device.longest_silence[1]):  # nobody holds it
         return ""
     needed, dry = loop.force_scale * needed_damping(loop.scene), Plant().friction
     return (
