@@ -8,7 +8,7 @@ from typing import TypeVar
 
 T = TypeVar("T")
 
-PATIENCE_S = 120.0  # long enough for a busy computer
+PATIENCE_S = 240.0  # long enough for a busy computer, where a program takes a minute to start
 POLL_S = 1e-3
 
 

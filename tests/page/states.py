@@ -33,19 +33,26 @@ def _first(page: Page) -> Iterator[State]:
     expect(page.locator(".tour")).to_be_visible()
     yield State("the tour", ".tour")
     ready(page)
-    for _ in range(20):
-        push(page, "Shift+ArrowDown", 5)
-        if events(page, "pop").count():
-            break
+    _push_to_a_pop(page)
     expect(page.locator(".ask-sound")).to_be_visible()
     yield State("live after a pop, with the question about sound")
     page.get_by_role("button", name="No sound").click()
+    _push_to_a_pop(page)  # on a busy computer, the page no longer has the ticks of the first one
     view(page).focus()
     page.keyboard.press("r")  # as the callout's button, which leaves the plot with the pop
     expect(page.get_by_role("group", name="Replay")).to_be_visible()
     yield State("the pop once more, slowly", ".player")
     page.keyboard.press("Escape")
     expect(page.get_by_role("group", name="Replay")).to_be_hidden()
+
+
+def _push_to_a_pop(page: Page) -> None:
+    """Until there is one more."""
+    pops = events(page, "pop").count()
+    for _ in range(20):
+        push(page, "Shift+ArrowDown", 5)
+        if events(page, "pop").count() > pops:
+            break
 
 
 def _tabs(page: Page) -> Iterator[State]:

@@ -13,7 +13,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 TOOLS = Path(__file__).parents[2] / "tools"
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="./test is a program for bash")
@@ -52,7 +52,7 @@ run_steps
 def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tmp_path):
     steps = "step_tree() { sleep 0.3; }; step_web() { echo said; return 3; }; step_cpp() { echo '2 passed in 1.0s'; }"
     with start(tmp_path, steps, "tree", "web", "cpp", "web") as run:
-        said = run.communicate(timeout=60)[0]
+        said = run.communicate(timeout=PATIENCE_S)[0]
     assert run.returncode == 1
     assert re.findall(r"^  (\w+) +(passed|FAILED)", said, re.M) == [
         ("tree", "passed"), ("web", "FAILED"), ("cpp", "passed"),
@@ -62,7 +62,7 @@ def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tm
 
 def test_a_step_that_was_killed_has_failed(tmp_path):
     with start(tmp_path, "step_web() { kill -KILL 0; }", "web") as run:
-        said = run.communicate(timeout=60)[0]
+        said = run.communicate(timeout=PATIENCE_S)[0]
     assert run.returncode == 1 and "FAILED" in said and "0 passed, 1 failed" in said
 
 
@@ -76,7 +76,7 @@ def test_a_signal_ends_the_steps_in_the_background_although_one_of_them_has_fini
         assert run.stdout is not None and run.stdout.readline().startswith("  tree         passed")
         os.kill(run.pid, how)
         try:
-            assert run.communicate(timeout=60)[0].endswith("Stopped.\n")
+            assert run.communicate(timeout=PATIENCE_S)[0].endswith("Stopped.\n")
         finally:
             run.kill()
         assert run.returncode == 130

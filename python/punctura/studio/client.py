@@ -21,7 +21,7 @@ from punctura.results import JsonObject
 from punctura.studio.wire.frames import Frame, decode_ticks
 
 T = TypeVar("T")
-PATIENCE_S = 60.0
+PATIENCE_S = 120.0
 
 
 class StudioClient:

@@ -16,7 +16,7 @@ import pytest
 from heed import heed_signals
 from punctura import progress, scene_names
 from punctura.cli._status import CALLED_WRONGLY, DONE, FAILED
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 HEADER = "time_s,x_m,y_m,z_m\n"
 
@@ -224,7 +224,7 @@ def test_a_signal_leaves_nothing_behind(tmp_path, name):
     assert process.poll() is None
     process.send_signal(getattr(signal, name))
     said = "interrupted" if name == "SIGINT" else f"ended by {name}"
-    assert process.communicate(timeout=60)[1] == f"punctura: {said}\n"
+    assert process.communicate(timeout=PATIENCE_S)[1] == f"punctura: {said}\n"
     assert process.returncode == 128 + getattr(signal, name)
     assert [p.name for p in tmp_path.iterdir()] == ["slow.csv"]
 
@@ -337,6 +337,6 @@ def test_a_signal_while_pandas_is_imported_ends_the_command(name, tmp_path):
     process.send_signal(getattr(signal, name))
     time.sleep(0.1)
     (tmp_path / "go").touch()
-    said = process.communicate(timeout=60)[1]
+    said = process.communicate(timeout=PATIENCE_S)[1]
     assert process.returncode == 128 + getattr(signal, name), said
     assert not (tmp_path / "o.csv").exists() and ("interrupted" in said or "ended by" in said)

@@ -17,7 +17,7 @@ from punctura.defects import explain, is_defect, log_file
 from punctura.studio.defects import Defects
 from punctura.studio.names import safe_name
 from punctura.ticks.files import save
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 OURS = {"__package__": "punctura.record", "np": np}  # the globals of a module of Punctura
 exec("def refuses(): raise ValueError('must be positive')", OURS)
@@ -134,7 +134,12 @@ def test_a_process_that_computes_for_the_studio_logs_its_defects(worker, log):
     program = f"import {worker} as w; w.do = lambda *_: [][1]; w.main()"
     job = '{"task": "look", "file": "x.csv"}'
     done = subprocess.run(
-        [sys.executable, "-c", program], input=job, capture_output=True, text=True, timeout=120, start_new_session=True
+        [sys.executable, "-c", program],
+        input=job,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        start_new_session=True,
     )
     assert done.returncode == 0 and "defect, please report it: IndexError" in done.stdout
     assert "IndexError" in log.read_text()

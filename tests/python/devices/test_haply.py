@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from punctura import _core
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 FAKES = Path(__file__).parents[2] / "fakes"
 
@@ -33,7 +33,7 @@ def test_each_generation_of_the_protocol_is_opened_with_its_own_key(version, tak
         assert device.info.has_orientation
         assert 0 < device.info.rate <= 1600
         del device
-        assert service.idle.wait(60)
+        assert service.idle.wait(PATIENCE_S)
     first = service.messages[0]
     assert ("session" in first) == (takes == "vector")
     largest = max(
@@ -64,7 +64,7 @@ def test_after_a_fault_the_arm_is_idle_and_the_trouble_is_in_words(fault):
         wait_until(lambda: loop.report()["ticks"] > 20 or device.trouble())
         setattr(service, fault, True)
         wait_until(lambda: device.trouble())
-        assert service.idle.wait(60)
+        assert service.idle.wait(PATIENCE_S)
         assert service.arm.force == [0, 0, 0]
         loop.stop()
 
@@ -82,7 +82,7 @@ def test_after_a_stop_it_is_the_same_arm_again_or_none():
         service.id = "BEEF"
         with pytest.raises(_core.DeviceError, match="049D"):
             loop.start()
-        assert service.idle.wait(60)
+        assert service.idle.wait(PATIENCE_S)
 
 
 def fast_enough(url):

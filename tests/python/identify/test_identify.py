@@ -27,6 +27,7 @@ from punctura.trace import Finding, Trace, TraceError, read_trace, segment
 from punctura.trace.blocks import held_out
 from traces import MEMBRANE, NEEDLE, force_of, motion, trace
 from typer.testing import CliRunner
+from waiting import PATIENCE_S
 
 TRUTH = {
     "membrane[0].surface": 5e-3,
@@ -147,20 +148,20 @@ def test_scenes_that_two_threads_make_at_once_leave_the_warnings_of_the_process_
     whole = identified_scene._scene
 
     def slowly(given, name, as_table):
-        began.wait(60)
-        began.wait(60)
+        began.wait(PATIENCE_S)
+        began.wait(PATIENCE_S)
         if name == "second":
-            first_done.wait(60)
+            first_done.wait(PATIENCE_S)
         return whole(given, name, as_table)
 
     monkeypatch.setattr(identified_scene, "_scene", slowly)
     before = list(warnings.filters)
     with ThreadPoolExecutor(2) as pool:
         made = [pool.submit(scene_of, parameters, name) for name in ("first", "second")]
-        began.wait(60)
+        began.wait(PATIENCE_S)
         with pytest.warns(UserWarning, match="unusual"):  # meanwhile, in this thread
             pn.Needle(diameter=1.2, tip_angle=0.4)
-        began.wait(60)
+        began.wait(PATIENCE_S)
         assert made[0].result(60).name == "first"
         first_done.set()
         assert made[1].result(60).name == "second"

@@ -9,7 +9,7 @@ import pytest
 from punctura.live import DroppingStream
 from punctura.live.dropping_stream import CUT
 from terminals import BLOCKED, go_on, read_until, stop, terminal
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 
 def stuck(file, room):
@@ -125,8 +125,8 @@ sys.exit(7)
 @pytest.mark.parametrize("blocked", BLOCKED)
 def test_a_program_ends_with_its_status_whoever_does_not_read(blocked):
     with BLOCKED[blocked]() as stderr:
-        assert subprocess.run([sys.executable, "-c", AT_THE_END], stderr=stderr, timeout=60).returncode == 7
-    done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=60)
+        assert subprocess.run([sys.executable, "-c", AT_THE_END], stderr=stderr, timeout=PATIENCE_S).returncode == 7
+    done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=PATIENCE_S)
     assert done.returncode == 7 and done.stderr.endswith("a line\nhalf a linefrom somebody else")
 
 
@@ -153,7 +153,7 @@ def test_a_program_in_the_background_is_not_suspended_by_what_it_writes():
     with terminal() as (master, slave):
         command = [sys.executable, "-c", BACKGROUND, JOB]
         done = subprocess.run(
-            command, stdout=subprocess.PIPE, stderr=slave, text=True, start_new_session=True, timeout=60
+            command, stdout=subprocess.PIPE, stderr=slave, text=True, start_new_session=True, timeout=PATIENCE_S
         )
         assert (done.returncode, done.stdout) == (0, "0\n")
         assert read_until(master, b"\n") == "from the background\n"
@@ -175,6 +175,6 @@ app.main()
 def test_a_command_with_a_defect_ends_whoever_does_not_read_its_traceback(blocked, monkeypatch):
     monkeypatch.setenv("PUNCTURA_DEBUG", "1")
     with BLOCKED[blocked]() as stderr:
-        assert subprocess.run([sys.executable, "-c", DEFECT], stderr=stderr, timeout=60).returncode == 70
-    done = subprocess.run([sys.executable, "-c", DEFECT], capture_output=True, text=True, timeout=60)
+        assert subprocess.run([sys.executable, "-c", DEFECT], stderr=stderr, timeout=PATIENCE_S).returncode == 70
+    done = subprocess.run([sys.executable, "-c", DEFECT], capture_output=True, text=True, timeout=PATIENCE_S)
     assert done.returncode == 70 and "\nRuntimeError: a defect\npunctura: a defect, please report it" in done.stderr

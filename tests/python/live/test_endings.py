@@ -17,7 +17,7 @@ from punctura.cli._headless import Tape
 from punctura.live import run_live
 from punctura.live.supervisor import Supervisor
 from punctura.record import open_recording
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 SCENE_NAME = pn.load_scene("venipuncture").name
 SCENE = pn.load_scene("k06-fig10")
@@ -46,7 +46,7 @@ def test_a_signal_ends_the_run_and_a_second_one_cuts_nothing_short(tmp_path, nam
     for _ in range(3):
         process.send_signal(number)
         time.sleep(0.02)
-    printed, said = process.communicate(timeout=60)
+    printed, said = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 128 + number
     assert " 0 lost" in said and "leaked" not in said and "Traceback" not in said
     recording = open_recording(path)
@@ -58,7 +58,7 @@ def test_the_summary_after_a_signal_is_whole_and_a_reader_that_does_not_read_del
     path = tmp_path / "run.parquet"
     process = running(path, "--json")
     process.send_signal(signal.SIGINT)
-    told = json.loads(process.communicate(timeout=60)[0])
+    told = json.loads(process.communicate(timeout=PATIENCE_S)[0])
     assert process.returncode == 128 + signal.SIGINT
     assert told["ticks"] == told["recording"]["rows"] > 0 and told["recording"]["finished"]
 
@@ -70,7 +70,7 @@ def test_the_summary_after_a_signal_is_whole_and_a_reader_that_does_not_read_del
     os.set_blocking(write, True)
     process = running(tmp_path / "full.parquet", stdout=write)
     process.send_signal(signal.SIGINT)
-    assert process.wait(60) == 128 + signal.SIGINT
+    assert process.wait(PATIENCE_S) == 128 + signal.SIGINT
     os.close(read)
     os.close(write)
 
@@ -80,7 +80,7 @@ def test_another_signal_right_after_the_first_cuts_nothing_short(tmp_path):
     process = running(path)
     process.send_signal(signal.SIGHUP)
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE_S)
     assert process.returncode in (128 + signal.SIGHUP, 128 + signal.SIGTERM)
     assert open_recording(path).finished
 
@@ -97,7 +97,7 @@ def test_what_the_caller_ignores_does_not_end_the_run(tmp_path):
     time.sleep(0.3)
     assert process.poll() is None
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 128 + signal.SIGTERM
 
 
@@ -109,7 +109,7 @@ def test_a_closed_terminal_ends_the_run_and_its_recording_is_whole(tmp_path):
     os.close(slave)
     os.close(master)  # what is written from now on fails, as after a window was closed
     process.send_signal(signal.SIGHUP)
-    assert process.wait(60) == 128 + signal.SIGHUP
+    assert process.wait(PATIENCE_S) == 128 + signal.SIGHUP
     assert open_recording(path).finished
 
 
@@ -121,7 +121,7 @@ def full_disk():
 
 def test_a_recording_that_lost_ticks_fails_the_command_and_is_in_its_summary(tmp_path):
     command = [*RUN, "--record", str(tmp_path / "run.parquet"), "--duration", "2", "--json"]
-    done = subprocess.run(command, text=True, capture_output=True, timeout=90, preexec_fn=full_disk)
+    done = subprocess.run(command, text=True, capture_output=True, timeout=PATIENCE_S, preexec_fn=full_disk)
     assert done.returncode == 1
     told = json.loads(done.stdout)["recording"]
     assert told["lost"] > 0 and not told["finished"] and told["trouble"]
@@ -141,7 +141,7 @@ def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
         """Stops only after the run's thread has reported the fault."""
 
         def __init__(self, signals, begin, over, end):
-            super().__init__(signals, begin, over, lambda: told.wait(60) and end())
+            super().__init__(signals, begin, over, lambda: told.wait(PATIENCE_S) and end())
 
     def blame(summary, device, thumb=None):
         blamed.append(told.is_set())
@@ -210,7 +210,7 @@ def hold():
 threading.Thread(target=hold, daemon=True).start()
 held.wait()
 """
-    done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=PATIENCE_S)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "stopped\n"
 
@@ -241,7 +241,7 @@ main(["run", "--headless", "--device", "simulated", "--duration", "0.2", "--reco
 def test_a_recording_is_finished_when_a_first_signal_comes_at_its_file(tmp_path, at, name):
     path = tmp_path / "run.parquet"
     command = [sys.executable, "-c", SIGNAL_AT_THE_FILE, at, name, str(path)]
-    done = subprocess.run(command, text=True, capture_output=True, timeout=60, preexec_fn=heed_signals)
+    done = subprocess.run(command, text=True, capture_output=True, timeout=PATIENCE_S, preexec_fn=heed_signals)
     assert done.returncode == 128 + getattr(signal, name)
     assert f"punctura: {path}: " in done.stderr and "Traceback" not in done.stderr
     assert [p.name for p in tmp_path.iterdir()] == ["run.parquet"]
@@ -255,7 +255,7 @@ def close_stderr():
 def test_a_closed_standard_error_changes_nothing_but_what_is_said(tmp_path):
     path = tmp_path / "run.parquet"
     command = [*RUN, "--duration", "0.2", "--record", str(path), "--json"]
-    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, timeout=60, preexec_fn=close_stderr)
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, timeout=PATIENCE_S, preexec_fn=close_stderr)
     assert done.returncode == 0 and json.loads(done.stdout)["recording"]["finished"]
     assert [p.name for p in tmp_path.iterdir()] == ["run.parquet"]
 
@@ -266,5 +266,5 @@ def test_a_terminal_that_has_gone_leaves_the_exit_status_of_a_run_that_ends_by_i
     process = running(path, "--duration", "6", stdin=slave, stdout=slave, stderr=slave, preexec_fn=ignore_hangup)
     os.close(slave)
     os.close(master)
-    assert process.wait(60) == 0
+    assert process.wait(PATIENCE_S) == 0
     assert open_recording(path).finished

@@ -14,7 +14,7 @@ from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedD
 from punctura.cli._headless import in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -201,7 +201,7 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     strong = "at most 3.3 N, 0.88 N rms in any 10 s"
     assert process.stderr.readline() == f"punctura: Venipuncture on PHANTOM Omni, simulated, {strong}; Ctrl-C ends it\n"
     process.send_signal(getattr(signal, name))
-    _, said = process.communicate(timeout=60)
+    _, said = process.communicate(timeout=PATIENCE_S)
     last = f"punctura: {'interrupted' if name == 'SIGINT' else f'ended by {name}'}; the force is off\n"
     assert said.endswith(last) and "Traceback" not in said
     assert process.returncode == 128 + getattr(signal, name)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from punctura.live import enumerate_devices
+from waiting import PATIENCE_S
 
 DOCS = (Path(__file__).parents[3] / "docs" / "devices.md").read_text(encoding="utf-8")
 HARDWARE = """
@@ -35,7 +36,7 @@ def package(folder, module, text, name="mine"):
 def punctura(folder, *arguments):
     environment = {**os.environ, "PYTHONPATH": str(folder)}
     command = [sys.executable, "-m", "punctura.cli", *arguments]
-    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE_S)
 
 
 def summary_of_mine(folder, seconds):
@@ -80,7 +81,7 @@ for rate in (1600, 5000, 20000, 50000):
 
 def test_a_program_ends_whole_while_daemon_threads_feed(tmp_path):
     for _ in range(8):
-        done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, "-c", AT_THE_END], capture_output=True, text=True, timeout=PATIENCE_S)
         assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -30,7 +30,7 @@ from punctura.record import open_recording, replay
 from punctura.studio.loaded import from_name
 from punctura.studio.pump import Pump
 from punctura.studio.run import NO_SYRINGE, Bench, Run, Settings
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("epidural")
 PATIENT = GateLimits(stale=30.0, deadline=30.0)  # a busy computer is no fault here
@@ -164,7 +164,7 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     path = tmp_path / "both.parquet"
     command = [sys.executable, "-m", "punctura.cli", "run", "epidural", "--headless", "--device", "simulated"]
     more = ["--second-device", "simulated", "--duration", "3", "--json", "--record", str(path)]
-    done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
     assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["strongest_thumb_N"] > 0

@@ -16,6 +16,7 @@ from punctura.live import DeviceInfo, FedDevice, SimulatedDevice, run_live
 from punctura.live.signals import Ended
 from punctura.record import open_recording
 from terminals import BLOCKED, stop, terminal, unread_pipe
+from waiting import PATIENCE_S
 
 SCENE = pn.load_scene("k06-fig10")
 RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
@@ -89,7 +90,7 @@ def test_ticks_that_cease_end_a_run_also_in_another_thread():
     found = []
     thread = threading.Thread(target=lambda: found.append(run_live(device, SCENE, watch=feed_once).fault), daemon=True)
     thread.start()
-    thread.join(60)
+    thread.join(PATIENCE_S)
     assert found and found[0].startswith("the device's ticks have ceased")
 
 
@@ -114,7 +115,7 @@ def test_a_watch_that_holds_the_gil_does_not_hold_up_the_end():
 def test_the_command_ends_after_its_time_while_nobody_reads_its_messages(tmp_path, blocked):
     command = [*RUN, "--duration", "1", "--record", str(tmp_path / "run.parquet"), "--json"]
     with BLOCKED[blocked]() as stderr:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, timeout=60)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, timeout=PATIENCE_S)
     assert done.returncode == 0
     assert json.loads(done.stdout)["recording"]["lost"] == 0
     assert open_recording(tmp_path / "run.parquet").finished
@@ -135,7 +136,7 @@ def test_a_termination_ends_the_command_while_its_terminal_is_stopped(tmp_path):
             stop(slave)
             size_of(part, part.stat().st_size + 60_000, process)  # the line has long been due
             process.send_signal(signal.SIGTERM)
-            assert process.wait(30) == 128 + signal.SIGTERM
+            assert process.wait(PATIENCE_S) == 128 + signal.SIGTERM
         finally:
             process.kill()
             process.wait()
@@ -156,7 +157,7 @@ def test_a_result_that_was_asked_for_is_whole_however_late_it_is_read():
     said = b""
     while piece := os.read(process.stdout.fileno(), 7):
         said += piece
-    assert process.wait(60) == 0 and json.loads(said)["ticks"] > 0
+    assert process.wait(PATIENCE_S) == 0 and json.loads(said)["ticks"] > 0
 
 
 def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from waiting import PATIENCE_S
 
 SCENE = "import os, sys, threading, numpy as np, punctura as pn\nscene = pn.load_scene('k06-fig10')\n"
 THREAD = """
@@ -22,7 +23,7 @@ began.wait()
 
 
 def ended(program):
-    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE_S)
 
 
 @pytest.mark.parametrize(

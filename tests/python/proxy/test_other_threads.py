@@ -7,6 +7,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.live import FedDevice
+from waiting import PATIENCE_S
 
 SCENE = pn.load_scene("k06-fig12")
 NEEDLE, MEMBRANE = SCENE.needle, SCENE.membranes[0].membrane
@@ -55,12 +56,12 @@ def test_another_thread_reads_nothing_while_run_is_at_work(make, names):
     def progress(share):
         read.append([getattr(made, name) for name in names.split()[:-1]])  # this thread may
         inside.set()
-        assert may_go_on.wait(60)
+        assert may_go_on.wait(PATIENCE_S)
 
     thread = threading.Thread(target=run, args=(progress,))
     thread.start()
     try:
-        assert inside.wait(60)
+        assert inside.wait(PATIENCE_S)
         for name in names.split():
             with pytest.raises(RuntimeError, match="at work on this object in another thread"):
                 getattr(made, name)

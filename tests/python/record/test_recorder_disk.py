@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
+from waiting import PATIENCE_S
 
 FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 whole_write = AppendFile.write
@@ -105,7 +106,7 @@ def test_ticks_that_a_slow_disk_costs_are_told_as_such(start, disk, monkeypatch)
 
     def write(self, data):
         if self.size:
-            assert taken.wait(60)
+            assert taken.wait(PATIENCE_S)
         whole_write(self, data)
 
     disk(write)

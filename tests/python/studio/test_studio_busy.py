@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import pytest
 from punctura.studio import live, session
 from punctura.studio.shelf import Shelf
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 UNARMED = 0  # a snapshot's state
 
@@ -15,8 +15,8 @@ UNARMED = 0  # a snapshot's state
 def busy(session):
     """Makes the worker wait until the end of the block."""
     waits, over = threading.Event(), threading.Event()
-    session.call(lambda: (waits.set(), over.wait(60)))
-    assert waits.wait(60)
+    session.call(lambda: (waits.set(), over.wait(PATIENCE_S)))
+    assert waits.wait(PATIENCE_S)
     try:
         yield
     finally:
@@ -40,14 +40,14 @@ def test_pause_takes_the_force_away_while_a_request_before_it_reads_a_file(serve
 
     def read_slowly(_shelf, _name, _act):
         reading.set()
-        over.wait(60)
+        over.wait(PATIENCE_S)
         raise ValueError("a slow disk")
 
     monkeypatch.setattr(Shelf, "read", read_slowly)
     page.wait(lambda: state(served) != UNARMED)
     try:
         page.send('{"id": 1001, "do": "play_motion", "recording": "slow"}')
-        assert reading.wait(60)
+        assert reading.wait(PATIENCE_S)
         page.send('{"id": 1002, "do": "pause"}')
         page.wait(lambda: state(served) == UNARMED)
     finally:

@@ -16,6 +16,7 @@ from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
 from punctura.studio.serve import StudioServer
 from recorded import recorded
+from waiting import PATIENCE_S
 
 FAKE = Path(__file__).parents[2] / "fakes" / "inverse_service.py"
 
@@ -73,7 +74,7 @@ def test_when_it_is_unplugged_the_page_is_told_why_and_the_studio_stays(haply):
     service.removed = True
     fault = page.wait(lambda: next((f for f in page.of("fault") if f["reason"]), None))
     assert fault["fault"] == "device" and fault["trouble"]
-    assert service.idle.wait(60)
+    assert service.idle.wait(PATIENCE_S)
     assert page.ask(do="pause")["ok"]
     refused = page.ask(do="load", scene="k06-fig10")
     assert not refused["ok"] and refused["text"]
@@ -144,7 +145,7 @@ def test_ticks_that_cease_end_the_run_while_the_worker_waits_for_a_file(tmp_path
     over = threading.Event()
     with fed(tmp_path, monkeypatch) as (server, page, feed):
         loop = server.session.run.loop
-        server.session.call(lambda: over.wait(60))
+        server.session.call(lambda: over.wait(PATIENCE_S))
         feed()
         try:
             page.wait(lambda: not loop.running)

@@ -20,7 +20,7 @@ from punctura.studio import connections, download
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
 from recorded import assert_same_table
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 TICKS = 40_000  # 30 MB as CSV: more than what the system keeps of a connection
 
@@ -97,7 +97,7 @@ def test_a_finished_file_that_nobody_reads_is_closed_after_the_same_time(served,
     assert unread.begin == b"HTTP/1.1 200 OK"
     page.wait(lambda: set(served.connections.known) <= before)
     page.wait(lambda: not opened(file))
-    unread.socket.settimeout(60)
+    unread.socket.settimeout(PATIENCE_S)
     assert sum(map(len, iter(lambda: unread.socket.recv(1 << 20), b""))) < 50_000_000
     unread.socket.close()
 

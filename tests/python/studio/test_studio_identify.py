@@ -24,7 +24,7 @@ from punctura.trace import TraceError
 from punctura.trace.columns import ColumnError
 from recorded import recorded
 from traces import trace
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 NEEDLE = {"diameter_mm": "1.2", "tip_angle_deg": "22.918"}
 
@@ -37,7 +37,7 @@ def csv(header="time_s,depth_mm,force_N", **options):
 
 def send(served, path, body, /, name="a.csv", **asked):
     """Sends a file. Returns the open answer, and its connection."""
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=120)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=PATIENCE_S)
     query = urllib.parse.urlencode({"name": name, **asked}, doseq=True)
     connection.request("POST", f"{path}?{query}", body, {"Authorization": f"Bearer {served.address.token}"})
     return connection.getresponse(), connection
@@ -144,7 +144,7 @@ def test_a_recording_states_its_columns_and_its_needle(tmp_path):
 
 
 def test_a_file_that_is_too_large_is_refused(served, monkeypatch):
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=PATIENCE_S)
     head = {"Authorization": f"Bearer {served.address.token}", "Content-Length": str(MOST_TRACE + 1)}
     connection.request("POST", FILE, headers=head)
     assert connection.getresponse().status == 413
@@ -158,7 +158,7 @@ def test_a_file_that_is_too_large_is_refused(served, monkeypatch):
 
 def test_a_file_that_comes_too_slowly_frees_the_place(served, monkeypatch):
     monkeypatch.setattr(limits, "FILE_S", 0.2)
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=PATIENCE_S)
     head = {"Authorization": f"Bearer {served.address.token}", "Content-Length": "1000"}
     connection.request("POST", FILE, b"0,1\n", head)  # the rest never comes
     answer = connection.getresponse()
@@ -169,7 +169,7 @@ def test_a_file_that_comes_too_slowly_frees_the_place(served, monkeypatch):
 
 def test_a_file_is_sent_to_its_own_addresses_only_and_with_the_token(served):
     assert refused(served, "/api/schema", b"1")[0] == 405
-    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=60)
+    connection = http.client.HTTPConnection("127.0.0.1", served.address.port, timeout=PATIENCE_S)
     connection.request("POST", FILE, b"1")
     assert connection.getresponse().status == 401
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 from punctura.studio import computing, lab
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 
 def get(served, address, /, **asked):
@@ -26,7 +26,7 @@ def get(served, address, /, **asked):
     request = urllib.request.Request(f"{url.scheme}://{url.netloc}{address}?{query}")
     request.add_header("Authorization", f"Bearer {token}")
     try:
-        with urllib.request.urlopen(request, timeout=120) as answer:
+        with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
             return answer.status, answer.read()
     except urllib.error.HTTPError as refusal:
         return refusal.code, refusal.read()
@@ -147,7 +147,7 @@ def test_the_group_of_a_worker_is_ended_before_its_number_is_free(monkeypatch, p
 
 
 def test_a_result_that_comes_as_the_time_ends_is_kept(monkeypatch):
-    monkeypatch.setattr(computing, "_next", lambda lines: lines.get(timeout=60))
+    monkeypatch.setattr(computing, "_next", lambda lines: lines.get(timeout=PATIENCE_S))
     times = iter([0.0])
     monkeypatch.setattr(computing, "clock", lambda: next(times, computing.LONGEST_S + 1))
     command = [sys.executable, "-c", "print('result')"]
@@ -157,7 +157,7 @@ def test_a_result_that_comes_as_the_time_ends_is_kept(monkeypatch):
 @pytest.mark.parametrize("address", ["compare", "bundle"])
 def test_leaving_a_computation_that_hangs_ends_it_and_frees_the_place(served, monkeypatch, hangs, address):
     url = urllib.parse.urlsplit(served.address.url)
-    connection = http.client.HTTPConnection(url.netloc, timeout=60)
+    connection = http.client.HTTPConnection(url.netloc, timeout=PATIENCE_S)
     token = urllib.parse.parse_qs(url.query)["token"][0]
     asked = urllib.parse.urlencode(VARIATION)
     connection.request("GET", f"/api/lab/{address}?{asked}", headers={"Authorization": f"Bearer {token}"})

@@ -11,7 +11,7 @@ import pytest
 from punctura.studio import hub as hubs
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_BODY, REQUESTS_AT_ONCE
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -19,7 +19,7 @@ from websockets.sync.client import connect
 def get(server, path="/", method="GET", host=None, body=None, **headers):
     """Sends a request unchanged. Returns status, headers, body."""
     port, token = server.address.port, server.address.token
-    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE_S)
     connection.putrequest(method, path.replace("TOKEN", token), skip_host=True)
     for name, value in {"Host": host or f"127.0.0.1:{port}", **headers}.items():
         if value:

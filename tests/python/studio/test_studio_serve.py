@@ -49,7 +49,7 @@ def test_a_signal_ends_it_with_the_recording_whole(tmp_path, name):
         assert page.ask(do="start_recording", name="r")["ok"]
         page.wait(lambda: page.last and page.last.run == 1)
         process.send_signal(getattr(signal, name))
-        page._thread.join(60)
+        page._thread.join(PATIENCE_S)
         assert page.closed is not None
     _, said = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 128 + getattr(signal, name) and "Traceback" not in said

@@ -17,7 +17,7 @@ from punctura.studio import protocols
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE, STRANGER_S
 from punctura.studio.wire.messages import Notice
-from waiting import wait_until
+from waiting import PATIENCE_S, wait_until
 
 PING, PONG, TEXT = b"\x89\x80\0\0\0\0", b"\x8a\x80\0\0\0\0", b"\x81\x80\0\0\0\0"
 FRAGMENT, BEGINNING = b"\x00\x80\0\0\0\0", b"\x01\x80\0\0\0\0"
@@ -258,7 +258,7 @@ def test_a_recording_begins_and_ends_among_more_connections_than_open_files(tmp_
             assert [entry["finished"] for entry in json.loads(page.get("/api/recordings")[1])] == [True, True]
     finally:
         studio.send_signal(signal.SIGINT)
-        _, said = studio.communicate(timeout=60)
+        _, said = studio.communicate(timeout=PATIENCE_S)
     assert "Traceback" not in said
 
 

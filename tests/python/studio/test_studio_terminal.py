@@ -11,6 +11,7 @@ import pytest
 from heed import heed_signals
 from punctura.studio.client import StudioClient
 from terminals import BLOCKED, read_until, stop, stopped_terminal, terminal
+from waiting import PATIENCE_S
 
 # Its server's thread has a lot to log before it may answer; what it has logged is said on stdout.
 FLOODED = """
@@ -52,7 +53,7 @@ def test_pause_is_answered_while_nobody_reads_a_flood_of_log_lines(tmp_path, blo
                 assert not page.status()["armed"]
             process.stdin.write("\n")
             assert process.stdout.readline() == "stopped\n"
-            assert process.wait(30) == 0
+            assert process.wait(PATIENCE_S) == 0
         finally:
             watchdog.cancel()
             process.kill()
@@ -80,7 +81,7 @@ def test_a_termination_ends_a_studio_on_a_stopped_terminal_with_its_recording_wh
                 assert page.ask(do="start_recording", name="r")["ok"]
                 page.wait(lambda: page.last and page.last.run == 1)
                 process.send_signal(signal.SIGTERM)
-                assert process.wait(60) == 128 + signal.SIGTERM
+                assert process.wait(PATIENCE_S) == 128 + signal.SIGTERM
         finally:
             process.kill()
             process.wait()
@@ -91,7 +92,7 @@ def test_a_studio_ends_after_its_time_on_a_stopped_terminal(tmp_path):
     with stopped_terminal() as slave:
         process = studio(tmp_path, slave, "--duration", "1")
         try:
-            assert process.wait(60) == 0
+            assert process.wait(PATIENCE_S) == 0
         finally:
             process.kill()
             process.wait()
