@@ -20,7 +20,7 @@ from punctura.rivals.fit import RivalFit, fit_rival
 from punctura.rivals.k06 import CHOSEN, PRINTED, K06Fit, fit_k06, k06_chatter
 from punctura.rivals.kinds import kinds
 from punctura.rivals.layers import Layer
-from punctura.trace import Segments, Trace, segment
+from punctura.trace import Segments, Trace, TraceError, segment
 from punctura.trace.information import information
 
 Array = NDArray[np.float64]
@@ -78,8 +78,11 @@ def compare_trace(
 
     identified: the identification of this trace with this needle, if there is one; K06 is then not fitted again.
 
-    Needs SciPy. Raises ConfigurationError for an unknown name, TraceError for a trace without an insertion.
+    Needs SciPy. Raises ConfigurationError for an unknown name, TraceError for a trace without an insertion or
+    a force.
     """
+    if not trace.force.any():
+        raise TraceError(f"{trace.source or 'the trace'}: the force is 0 throughout: state the column of the force")
     known = kinds()
     wanted = [*known, PRINTED] if names is None else list(names)
     for name in wanted:

@@ -111,13 +111,10 @@ def test_only_the_force_since_the_last_entry_counts(write):
     off = np.arange(len(twice["tick"])) < len(columns["tick"])
     twice |= {"state": np.where(off, ServoState.disarmed.value, ServoState.active.value)}
     stay = goal("stay", seconds=30)
-    made = lambda state: (
-        judged(  # noqa: E731
-            load_exercise(write(stay, head=PRESS)), twice | {"state": state}, scene=SCENE
-        )
-        .finish()
-        .metrics
-    )
+
+    def made(state):
+        return judged(load_exercise(write(stay, head=PRESS)), twice | {"state": state}, scene=SCENE).finish().metrics
+
     assert made(twice["state"]).force_off == 0
     assert made(twice["state"][::-1]).force_off > 0.5
 

@@ -11,7 +11,7 @@ from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, fit_riv
 from punctura.rivals.chatter import places_of, rival_chatter
 from punctura.rivals.first_stretch import compared, first_stretch, k06_on, rival_on
 from punctura.rivals.words import table
-from punctura.trace import Trace, segment
+from punctura.trace import Trace, TraceError, segment
 from punctura.trace.information import information
 
 NOISE = 2e-3  # N
@@ -168,3 +168,9 @@ def test_files_of_layers_are_checked(tmp_path):
     file.write_text('{"format": "other"}')
     with pytest.raises(pn.PuncturaError, match="no file of rivals"):
         load_layers(file)
+
+
+def test_a_trace_without_a_force_is_refused():
+    time = np.arange(0, 4.0, 0.01)
+    with pytest.raises(TraceError, match="the force is 0 throughout"):
+        compare_trace(Trace(4e-3 * time, np.zeros(len(time)), time, "of a wrong column"))
