@@ -47,7 +47,8 @@ class Attempt:
         need_syringe(exercise.file, scene)
         self._space = space_of(exercise.file, scene)
         self._judges: list[Limit | Achievement] = [
-            limit_of(goal, scene) or achievement_of(goal, self._space, exercise.file.space.behind, scene)
+            limit_of(goal, exercise.file, self._space, scene)
+            or achievement_of(goal, self._space, exercise.file.space.behind, scene)
             for goal in exercise.goals
         ]
         self._limits = [judge for judge in self._judges if isinstance(judge, Limit)]

@@ -10,6 +10,8 @@ LEAST_MM = 0.1  # for every depth and distance, the width of a space, and the di
 LEAST_S, MOST_S = 0.01, 3600.0  # for every time
 LEAST_N, MOST_N = 0.001, 1000.0  # for a force
 MOST_ENTRIES = 1000
+LEAST_DEG, MOST_DEG = 1.0, 45.0  # for a tolerance of an angle
+LEAST_MM_PER_S, MOST_MM_PER_S = 0.5, 1000.0  # for a speed; a slower needle stands still
 LEAST_PUSH_N, MOST_PUSH_N = 0.1, 15.0  # of a thumb; the simulated thumb pushes with at most 15 N
 LEAST_ML, MOST_ML = 0.01, 100.0  # for a volume; the largest syringes have 60 mL
 

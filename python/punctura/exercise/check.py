@@ -48,6 +48,7 @@ def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | No
     problems += _names(sound, scene)
     problems += _lines(sound, scene)
     problems += _plunger(sound, scene)
+    problems += _depths(sound)
     problems += unreachable(sound.space, sound.goals, scene)
     return (None if problems else file), problems
 
@@ -138,6 +139,14 @@ def _plunger(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
     for i, goal in sound.goals.items():
         if scene is not None and scene.syringe is None and GOALS[goal["kind"]] in (FeelPlunger, StopPlunger):
             yield Problem(f"goal[{i}].kind", goal["kind"], "needs a scene with a syringe: its file has no [syringe]")
+
+
+def _depths(sound: Sound) -> Iterator[Problem]:
+    """A depth goal without a depth means the end of the space."""
+    for i, goal in sound.goals.items():
+        given = (goal.get("at_most_mm", 0.0), sound.space.get("deepest_mm", 0.0))
+        if goal["kind"] == "depth" and given == (None, None):
+            yield Problem(f"goal[{i}].at_most_mm", MISSING, "is needed: the space has no deepest_mm")
 
 
 def _names(sound: Sound, scene: Scene | None) -> Iterator[Problem]:

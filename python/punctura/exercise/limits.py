@@ -8,12 +8,18 @@ from numpy.typing import NDArray
 from punctura import Scene
 from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
+from punctura.exercise.motion_limits import AngleJudge, DepthJudge, PauseJudge, SpeedJudge
 from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.schema import (
     AnyGoal,
     Entries,
+    EntryAngle,
+    ExerciseFile,
     FeelPlunger,
+    MostDepth,
+    MostSpeed,
     NeverPass,
+    NoPause,
     OnLine,
     PeakForce,
     Reach,
@@ -22,7 +28,7 @@ from punctura.exercise.schema import (
     StopPlunger,
     TimeLimit,
 )
-from punctura.exercise.space import place_of
+from punctura.exercise.space import TargetSpace, place_of
 from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import JudgedTicks
 
@@ -117,10 +123,18 @@ class EntriesJudge(Limit):
                     self.missed = Moment(event.tick, event.time)
 
 
-def limit_of(goal: AnyGoal, scene: Scene) -> Limit | None:
+def limit_of(goal: AnyGoal, file: ExerciseFile, space: TargetSpace, scene: Scene) -> Limit | None:
     """The judge of a limit; None for a goal to achieve. The scene must have the goal's membrane."""
     if isinstance(goal, Reach | Stay | FeelPlunger):
         return None
+    if isinstance(goal, EntryAngle):
+        return AngleJudge(goal, file, scene)
+    if isinstance(goal, MostSpeed):
+        return SpeedJudge(goal)
+    if isinstance(goal, NoPause):
+        return PauseJudge(goal, space)
+    if isinstance(goal, MostDepth):
+        return DepthJudge(goal, space, file.space.behind)
     if isinstance(goal, NeverPass):
         return NeverPassJudge(goal, scene)
     if isinstance(goal, StopAfterPop):

@@ -42,7 +42,6 @@ class Measures:
         thumb_must: whether a second device must show the plunger's loss of resistance.
         """
         self._windows = dict(windows or {})
-        self._normal = geometry.normals[0]
         self._names = [placed.name for placed in scene.membranes]
         self._space = space
         self.entries = 0
@@ -139,9 +138,9 @@ class Measures:
                 self._way = self._path.at(ticks.tip[arrived])
 
     def _enter(self, ticks: JudgedTicks, row: int) -> None:
-        axis = ticks.held[row]
-        self._path = Path(ticks.tip[row], axis)
-        self._entry_angle = math.asin(min(1.0, float(axis @ self._normal)))
+        self._path = Path(ticks.tip[row], ticks.held[row])
+        angle = float(ticks.angle[row])
+        self._entry_angle = angle if math.isfinite(angle) else None
 
     @property
     def force_cut(self) -> dict[str, float]:

@@ -17,7 +17,7 @@ GOALS: dict[str, type[BaseModel]] = {
 }
 _TABLES: dict[str, type[BaseModel]] = {"start": Start, "space": Space}
 _HEADS = {"start": "[start]", "space": "[space]", "goal": "[[goal]]"}
-_UNITS = {"seconds": "s"}  # for keys that do not end in their unit
+_UNITS = {"seconds": "s", "at_most_mm_per_s": "mm/s"}  # for keys that do not end in their unit
 
 _TYPES = {
     "string_type": "must be text, in quotes",

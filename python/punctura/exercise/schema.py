@@ -9,13 +9,17 @@ from pydantic.json_schema import JsonSchemaValue
 
 from punctura.exercise.bounds import (
     DEEPEST_MM,
+    LEAST_DEG,
     LEAST_ML,
     LEAST_MM,
+    LEAST_MM_PER_S,
     LEAST_N,
     LEAST_PUSH_N,
     LEAST_S,
+    MOST_DEG,
     MOST_ENTRIES,
     MOST_ML,
+    MOST_MM_PER_S,
     MOST_N,
     MOST_PUSH_N,
     MOST_S,
@@ -30,6 +34,9 @@ Depth = Annotated[float, Field(allow_inf_nan=False, ge=0, le=DEEPEST_MM)]
 Distance = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM, le=DEEPEST_MM)]
 Seconds = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_S, le=MOST_S)]
 Newtons = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_N, le=MOST_N)]
+Angle = Annotated[float, Field(gt=10, le=90)]  # between the needle and the first membrane's surface
+Tolerance = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_DEG, le=MOST_DEG)]
+Speed = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM_PER_S, le=MOST_MM_PER_S)]
 Push = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_PUSH_N, le=MOST_PUSH_N)]
 Volume = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_ML, le=MOST_ML)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
@@ -39,7 +46,7 @@ class Start(Table):
     """Position and direction of the needle at the start."""
 
     position_mm: Vector
-    angle_deg: Annotated[float, Field(gt=10, le=90)] = 90.0  # between the needle and the first membrane's surface
+    angle_deg: Angle = 90.0
     heading: Vector = Field([1.0, 0.0, 0.0])  # direction of a slanted needle along the surface
 
 
@@ -129,6 +136,35 @@ class Entries(_Goal):
     at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
 
 
+class EntryAngle(_Goal):
+    """At each entry into the first membrane, the needle has this angle to its surface."""
+
+    kind: Literal["entry_angle"]
+    angle_deg: Angle | None = None  # default: the angle of the start
+    within_deg: Tolerance
+
+
+class MostSpeed(_Goal):
+    """In tissue, the point never moves in faster than this."""
+
+    kind: Literal["speed"]
+    at_most_mm_per_s: Speed
+
+
+class NoPause(_Goal):
+    """On the way from the first contact to the space, the needle never stands still for so long."""
+
+    kind: Literal["no_pause"]
+    seconds: Seconds = 1.0
+
+
+class MostDepth(_Goal):
+    """The point never comes deeper than this behind the far face of `behind`."""
+
+    kind: Literal["depth"]
+    at_most_mm: Distance | None = None  # default: the end of the space, deepest_mm
+
+
 class FeelPlunger(_Goal):
     """The syringe's plunger gives way under a thumb that pushes while the point comes out behind `behind`."""
 
@@ -145,7 +181,20 @@ class StopPlunger(_Goal):
 
 
 AnyGoal = Annotated[
-    Reach | Stay | NeverPass | StopAfterPop | OnLine | TimeLimit | PeakForce | Entries | FeelPlunger | StopPlunger,
+    Reach
+    | Stay
+    | NeverPass
+    | StopAfterPop
+    | OnLine
+    | TimeLimit
+    | PeakForce
+    | Entries
+    | EntryAngle
+    | MostSpeed
+    | NoPause
+    | MostDepth
+    | FeelPlunger
+    | StopPlunger,
     Field(discriminator="kind"),
 ]
 

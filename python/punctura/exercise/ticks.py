@@ -27,6 +27,7 @@ class JudgedTicks:
     time: Numbers  # s
     tip: Numbers  # (n, 3), m
     held: Numbers  # (n, 3), the needle's direction: fixed by the first membrane at entry, else the stylus's
+    angle: Numbers  # rad, between it and the first membrane's surface; NaN if unknown
     force: Numbers  # N, the norm of the model's force; NaN if unknown
     model: Numbers  # N, the model's force against the needle, along it
     felt: Numbers  # N, the same of the felt force; the model's if only that is known
@@ -103,7 +104,8 @@ class Geometry:
         tick = columns["tick"].astype(np.int64) if "tick" in columns else np.arange(first, first + n)
         force = np.asarray(columns["model_force" if "model_force" in columns else "force"], dtype=np.float64)
         felt = np.asarray(columns["force"], dtype=np.float64) if "force" in columns else force
-        held = self._held(columns, axis, inside)
+        held, known = self._held(columns, axis, inside)
+        slope = np.einsum("ij,j->i", held, self.normals[0])
         zeros = np.zeros(n, dtype=np.int64)
         time = np.asarray(columns["time"] if "time" in columns else tick / self._rate, dtype=np.float64)
         return JudgedTicks(
@@ -111,6 +113,7 @@ class Geometry:
             time=time,
             tip=columns["tip"],
             held=held,
+            angle=np.where(known, np.arcsin(np.clip(slope, -1.0, 1.0)), np.nan),
             force=np.linalg.norm(force, axis=1),
             model=-np.einsum("ij,ij->i", force, held),
             felt=-np.einsum("ij,ij->i", felt, held),
@@ -142,14 +145,15 @@ class Geometry:
             cut_to=np.full(n, np.inf),
         )
 
-    def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:
+    def _held(self, columns: Columns, axis: Numbers, inside: Flags) -> tuple[Numbers, Flags]:
+        """The direction, and whether it is known; else it is the first membrane's normal."""
         held = axis
         if "direction" in columns and columns["direction"].shape[1]:
             b = columns["direction"][:, 0]
             held = np.where(inside[:, :1] & np.isfinite(b).all(axis=1, keepdims=True), b, axis)
         length = np.linalg.norm(held, axis=1, keepdims=True)
         good = np.isfinite(length) & (length > 0)
-        return np.where(good, held / np.where(good, length, 1.0), self.normals[0])
+        return np.where(good, held / np.where(good, length, 1.0), self.normals[0]), good[:, 0]
 
     def _cosine(self, columns: Columns, axis: Numbers, inside: Flags) -> Numbers:
         """n.b, with the direction at entry while the tip is inside, else with the stylus's direction."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from decimal import ROUND_HALF_UP, Decimal
 
@@ -11,6 +12,7 @@ from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
 from punctura.exercise.loss import remedy
 from punctura.exercise.measures import Measures
+from punctura.exercise.motion_limits import AngleJudge, DepthJudge, PauseJudge, SpeedJudge
 from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.result import GoalState, Loss, PlungerLoss
 from punctura.exercise.schema import Space
@@ -50,6 +52,15 @@ def missed(limit: Limit, when: Moment, measures: Measures, space: TargetSpace) -
         return f"The time ran out {limit.seconds:g} s after the first contact."
     if isinstance(limit, ForceJudge):
         return f"You pushed with more than {limit.at_most:g} N."
+    if isinstance(limit, AngleJudge):
+        entered = math.degrees(limit.entered or 0.0)
+        return f"You entered at {entered:.0f} degrees; {limit.asked_deg:g} are asked, within {limit.within_deg:g}."
+    if isinstance(limit, SpeedJudge):
+        return f"You pushed in faster than {limit.at_most * 1e3:g} mm/s."
+    if isinstance(limit, PauseJudge):
+        return f"You stood still for {limit.seconds:g} s before you reached {space.name}."
+    if isinstance(limit, DepthJudge):
+        return f"The point went more than {limit.at_most * 1e3:g} mm past the {limit.behind}."
     if isinstance(limit, EntriesJudge):
         return f"You entered more than {limit.at_most} time{'s' * (limit.at_most > 1)}."
     return f"Missed: {limit.text}."

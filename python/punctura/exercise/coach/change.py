@@ -9,6 +9,7 @@ from punctura.exercise.achievements import FeelJudge
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen, degrees, millilitres, mm, speed, times
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
+from punctura.exercise.motion_limits import PauseJudge, SpeedJudge
 from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
@@ -99,6 +100,13 @@ def pushed_too_little(seen: Seen) -> Iterator[Remark]:
             f"{goal.at_least:g} N are asked: keep your thumb on the plunger until it gives way."
         )
         yield Remark(about="plunger", text=text, numbers={"push_N": load, "asked_N": goal.at_least})
+
+
+def pushed_too_fast(seen: Seen) -> Iterator[Remark]:
+    for limit in seen.missed(SpeedJudge):
+        fast = seen.trace.last.speed
+        text = f"You moved in at {speed(fast)}; {speed(limit.at_most)} are allowed: push more slowly."
+        yield Remark(about="speed", text=text, numbers={"speed_m_s": fast, "allowed_m_s": limit.at_most})
 
 
 def pushed_too_hard(seen: Seen) -> Iterator[Remark]:
@@ -210,7 +218,7 @@ def trembled(seen: Seen) -> Iterator[Remark]:
 
 def paused(seen: Seen) -> Iterator[Remark]:
     count, seconds = seen.pauses
-    if seconds >= t.PAUSES_S:
+    if seconds >= t.PAUSES_S or (count and any(seen.missed(PauseJudge))):
         text = (
             f"You stood still {times(count)} in the tissue on the way, for {tenths(seconds)} s together: push slowly "
             "but without a pause."
@@ -241,5 +249,6 @@ def nearly_too_far(seen: Seen) -> Iterator[Remark]:
 
 ORDER = (
     went_through, beside_the_line, went_too_far, pushed_on, pushed_too_early, pushed_too_little, pushed_too_hard,
+    pushed_too_fast,
     wrong_angle, too_short, pressed, left_the_space, entered_again, nearly_too_far, trembled, paused, went_aside,
 )  # fmt: skip

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 
 from punctura import Scene
@@ -14,6 +13,7 @@ from punctura.exercise.coach.thresholds import MOST_REMARKS
 from punctura.exercise.coach.trace import Trace
 from punctura.exercise.limit import Limit, Moment
 from punctura.exercise.measures import Measures
+from punctura.exercise.motion_limits import asked_angle
 from punctura.exercise.remark import Coaching, Remark
 from punctura.exercise.schema import ExerciseFile
 from punctura.exercise.space import TargetSpace
@@ -46,7 +46,7 @@ class Coach:
         space = self._file.space
         seen = Seen(
             passed, decision, limits, achievements, self._space, space.behind, space.in_front_of or "", self._first,
-            math.radians(self._file.start.angle_deg), measures.metrics(), measures.first_touch, self._trace,
+            asked_angle(self._file), measures.metrics(), measures.first_touch, self._trace,
         )  # fmt: skip
         return Coaching(good=_first(good.ORDER, seen), change=_first(change.ORDER, seen))
 

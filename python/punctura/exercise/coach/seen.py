@@ -30,7 +30,7 @@ class Seen:
     before: str  # name of the membrane before the space
     after: str  # name of the membrane behind it; empty if there is none
     first: str  # name of the first membrane
-    angle: float  # between the needle and the first surface at the start, rad
+    angle: float  # that is asked between the needle and the first surface, rad
     metrics: Metrics
     first_touch: float | None  # s
     trace: Trace

@@ -12,7 +12,6 @@ ANGLE_GOOD_DEG, ANGLE_OFF_DEG = 2.0, 5.0  # difference to the angle of the start
 ASIDE_GOOD_M, ASIDE_OFF_M = 0.5e-3, 1.0e-3  # distance from the line of entry
 CROOKED = 1.1  # path length through straight distance
 
-PAUSE_SPEED = 0.5e-3  # m/s; a slower needle stands still
 PAUSE_S = 1.0  # a shorter stop is not a pause
 PAUSES_S = 2.0  # all pauses together, from which the coach speaks
 

@@ -31,6 +31,14 @@ export interface Draft {
   readonly neverPass: string;
   readonly peakForce: number | null;
   readonly entries: number | null;
+  /** Degrees, by which the angle of an entry may differ from `angle`. */
+  readonly angleWithin: number | null;
+  /** mm/s. */
+  readonly speed: number | null;
+  /** s, for which the needle may stand still on the way. */
+  readonly pause: number | null;
+  /** mm behind the membrane. */
+  readonly depth: number | null;
   readonly seconds: number | null;
   readonly blind: boolean;
 }
@@ -61,6 +69,10 @@ export function draftOf(scene: SceneOutline): Draft {
     neverPass: "",
     peakForce: null,
     entries: 3,
+    angleWithin: null,
+    speed: null,
+    pause: null,
+    depth: null,
     seconds: 60,
     blind: false,
   };
@@ -81,6 +93,10 @@ export function tablesOf(draft: Draft, scene: SceneOutline): Record<string, unkn
   if (draft.neverPass) goals.push({ kind: "never_pass", membrane: draft.neverPass });
   if (draft.peakForce !== null) goals.push({ kind: "peak_force", at_most_N: draft.peakForce });
   if (draft.entries !== null) goals.push({ kind: "entries", at_most: draft.entries });
+  if (draft.angleWithin !== null) goals.push({ kind: "entry_angle", within_deg: draft.angleWithin });
+  if (draft.speed !== null) goals.push({ kind: "speed", at_most_mm_per_s: draft.speed });
+  if (draft.pause !== null) goals.push({ kind: "no_pause", seconds: draft.pause });
+  if (draft.depth !== null) goals.push({ kind: "depth", at_most_mm: draft.depth });
   if (draft.seconds !== null) goals.push({ kind: "time_limit", seconds: draft.seconds });
   return {
     title: draft.title,
@@ -141,6 +157,10 @@ const GOALS: Readonly<Record<string, keyof Draft>> = {
   never_pass: "neverPass",
   peak_force: "peakForce",
   entries: "entries",
+  entry_angle: "angleWithin",
+  speed: "speed",
+  no_pause: "pause",
+  depth: "depth",
   time_limit: "seconds",
 };
 

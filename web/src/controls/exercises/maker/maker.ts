@@ -159,6 +159,10 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
       number("entries", "Entries into the tissue, at most", true),
       number("seconds", "Time limit, s", true),
       number("angle", "Needle to skin, degrees", false),
+      number("angleWithin", "Enter at this angle, within degrees", true),
+      number("speed", "Push in with at most, mm/s", true),
+      number("pause", "Never stand still on the way for, s", true),
+      number("depth", "Point behind the membrane at most, mm", true),
       tick("blind", "Blind: hide needle and depth"),
       element(
         "div",
@@ -191,4 +195,15 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   return root;
 }
 
-type Optional = "stay" | "stopWithin" | "push" | "inject" | "peakForce" | "entries" | "seconds";
+type Optional =
+  | "stay"
+  | "stopWithin"
+  | "push"
+  | "inject"
+  | "peakForce"
+  | "entries"
+  | "angleWithin"
+  | "speed"
+  | "pause"
+  | "depth"
+  | "seconds";

@@ -52,6 +52,19 @@ test("the plunger's goals have their own fields", () => {
   expect(fieldOf("goal[2].within_mL", tables)).toBe("inject");
 });
 
+test("how the needle is moved has its own fields", () => {
+  const asked = { angleWithin: 5, speed: 30, pause: 1, depth: 12 };
+  const tables = tablesOf({ ...draftOf(SCENE), stay: null, entries: null, seconds: null, ...asked }, SCENE);
+  expect(tables.goal).toEqual([
+    { kind: "reach" },
+    { kind: "entry_angle", within_deg: 5 },
+    { kind: "speed", at_most_mm_per_s: 30 },
+    { kind: "no_pause", seconds: 1 },
+    { kind: "depth", at_most_mm: 12 },
+  ]);
+  expect([1, 2, 3, 4].map((i) => fieldOf(`goal[${i}].any`, tables))).toEqual(Object.keys(asked));
+});
+
 test("a slanted needle starts where it points at the middle of the goal", () => {
   const start = (angle: number) =>
     (tablesOf({ ...draftOf(SCENE), angle }, SCENE) as { start: { position_mm: number[] } }).start.position_mm;
