@@ -16,7 +16,7 @@ from punctura.exercise.achievements import Achievement, FeelJudge, StayJudge, ac
 from punctura.exercise.coach import Coach
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.limit import Limit, Moment, first_of, moment
-from punctura.exercise.limits import TimeJudge, limit_of
+from punctura.exercise.limits import LineJudge, TimeJudge, limit_of
 from punctura.exercise.losses import felt_membranes
 from punctura.exercise.measures import Measures
 from punctura.exercise.plunger import PlungerJudge, judges_plunger, need_syringe
@@ -74,7 +74,7 @@ class Attempt:
         self._decision: Moment | None = None
         self._passed = False
         self._invalid = ""  # why the attempt cannot be judged
-        self._too_deep = False  # at the last tick
+        self._too_deep = self._inside = False  # at the last tick
 
     def __repr__(self) -> str:
         return f"<Attempt at {self.exercise.file.title!r}: {self._rows} ticks, over={self.over}>"
@@ -123,6 +123,7 @@ class Attempt:
         self._measures.add(ticks, events)
         self._coach.add(ticks, events)
         self._measures.settle(later)
+        self._inside = bool(ticks.inside[-1].any())
         self._too_deep = bool(self._space.too_deep(ticks)[-1] and ticks.inside[-1, self._space.behind])
 
     def _decide(self, ticks: JudgedTicks) -> None:
@@ -215,6 +216,9 @@ class Attempt:
             return " ".join(self._reasons(ended=False))
         if any(isinstance(one, FeelJudge) and one.met is None and one.empty for one in self._achievements):
             return words.emptied(self._space)
+        for line in self._limits if self._measures.arrival is None else []:
+            if isinstance(line, LineJudge) and abs(line.aim or 0.0) > line.within:
+                return words.aside(line, self._inside)
         if self._measures.entries == 0:
             return self.exercise.instruction
         if self._too_deep:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Scene
+from punctura._core import grazing_cosine
 from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
 from punctura.exercise.motion_limits import AngleJudge, DepthJudge, PauseJudge, SpeedJudge
@@ -81,6 +82,9 @@ def across(scene: Scene, along: list[float]) -> NDArray[np.float64]:
     return side / length if length > 1e-9 else np.full(3, np.nan)
 
 
+_WAYS = (("to the left", "to the right"), ("down", "up"), ("away from you", "towards you"))  # of x, y and z
+
+
 class LineJudge(Limit):
     """Uses the position of the tip in the ticks in which the point is in the space."""
 
@@ -89,9 +93,25 @@ class LineJudge(Limit):
         self.within = goal.within_mm * 1e-3
         self.farthest: float | None = None  # m, to the side; up to the first miss
         self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
+        self.aim: float | None = None  # m to the side, where the needle points at the line's depth in the last tick
+        self._normal = np.asarray(scene.membranes[0].inward_normal) / np.linalg.norm(scene.membranes[0].inward_normal)
         self._first: Moment | None = None
 
+    @property
+    def way(self) -> str:
+        """Where to move a needle that points beside the line, seen by the user."""
+        way = -np.sign(self.aim or 0.0) * self._across
+        axis = int(np.abs(way).argmax())
+        return _WAYS[axis][int(way[axis] > 0)]
+
+    def _points(self, ticks: JudgedTicks) -> None:
+        offset, held = ticks.tip[-1] - self._point, ticks.held[-1]
+        left = max(0.0, -float(offset @ self._normal) / max(grazing_cosine, float(held @ self._normal)))
+        aim = float((offset + left * held) @ self._across)
+        self.aim = aim if np.isfinite(aim) else None
+
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        self._points(ticks)
         aside = np.abs((ticks.tip - self._point) @ self._across)
         self._watch(ticks, np.isfinite(aside))
         here = ticks.in_space[:, 0] & np.isfinite(aside)

@@ -113,6 +113,14 @@ def emptied(space: TargetSpace) -> str:
     )
 
 
+def aside(limit: LineJudge, inside: bool) -> str:
+    """The instruction while the needle points beside the line that it must meet."""
+    half_mm = round(abs(limit.aim or 0.0) * 2e3) / 2
+    if inside:
+        return f"The needle points {half_mm:g} mm beside the line: draw it out, and move it {limit.way}."
+    return f"Move the needle {half_mm:g} mm {limit.way}, until it points at the line. Then push in."
+
+
 def too_deep(space: Space) -> str:
     """The instruction while the point is behind the space's end."""
     if space.in_front_of is not None:

@@ -127,8 +127,8 @@ def test_goals_in_ones_own_words(write):
     assert [g.text for g in attempt.goals] == ["Into it", "Enter the skin no more than once"]
 
 
-def test_an_attempt_that_begins_inside_begins_when_the_needle_is_out():
-    exercise = load_exercise("venipuncture")
+def test_an_attempt_that_begins_inside_begins_when_the_needle_is_out(write):
+    exercise = load_exercise(write(goal("reach"), goal("never_pass", membrane="back vein wall")))
     columns = ideal(SCENE, (0, -9, 0), (0, 5, 0), (0, -2, 0))
     columns["phase"][: int((columns["tip"][:, 1] > 0).argmax())] = Phase.barred.value
     attempt = judged(exercise, columns, scene=SCENE)
@@ -161,18 +161,18 @@ def test_columns_without_numbers_do_no_harm():
     assert judged(exercise, few).finish().passed is False
 
 
-def test_a_fault_ends_the_attempt_and_is_reported():
+def test_a_fault_ends_the_attempt_and_is_reported(write):
     columns = ideal(SCENE, (0, 5, 0), (0, -6, 0))
     columns["fault"][1000:] = Fault.position_jump.value
-    attempt = judged(load_exercise("venipuncture"), columns, scene=SCENE)
+    attempt = judged(load_exercise(write(goal("stay", seconds=9))), columns, scene=SCENE)
     assert attempt.over
     assert attempt.finish().reasons[0].startswith("The run stopped: ")
 
 
-def test_another_scene_on_the_way_makes_it_not_count():
+def test_another_scene_on_the_way_makes_it_not_count(write):
     columns = ideal(SCENE, (0, 5, 0), (0, -6, 0))
     columns["commands"][1000] = 8
-    result = judged(load_exercise("venipuncture"), columns, scene=SCENE).finish()
+    result = judged(load_exercise(write(goal("stay", seconds=9))), columns, scene=SCENE).finish()
     assert result.reasons == ["The scene was changed during the exercise, so this attempt does not count."]
 
 

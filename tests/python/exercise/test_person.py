@@ -49,6 +49,48 @@ class Person:
         return self.slow if cue else self.fast
 
 
+WAYS = {"towards you": (0, 0, 1), "away from you": (0, 0, -1), "to the right": (1, 0, 0), "to the left": (-1, 0, 0)}
+
+
+class ByKeys:
+    """Presses a key eight times a second, and does nothing but what the instruction says."""
+
+    TURNS = 8  # a second
+
+    def __init__(self, blind_s=0.0):
+        """blind_s: until it begins to read the instruction."""
+        self.blind_s = blind_s
+
+    def tries(self, name, seconds=60):
+        exercise = load_exercise(name)
+        scene = as_a_device_runs_it(exercise.scene)
+        axis, target = np.asarray(exercise.start_axis), np.array(exercise.start_position)
+        device = pn.Experiment(scene, pn.Target(target), axis=axis)
+        attempt, ticks, self.heard = Attempt(exercise, scene), 0, []
+        while ticks < seconds * scene.servo.rate and not attempt.over:
+            told = attempt.status.instruction if ticks >= self.blind_s * scene.servo.rate else ""
+            self.heard += [told] if told not in self.heard else []
+            target = target + self._key(told, axis)
+            device.move_to(target)
+            trace = device.run(1 / self.TURNS)
+            n = len(trace.time)
+            tick = np.arange(ticks, ticks + n)
+            moved = {"tick": tick, "time": trace.time, "tip": trace.position, "model_force": trace.model_force}
+            attempt.add(of_trace(trace) | moved | {"axis": np.tile(unit(axis), (n, 1))})
+            ticks += n
+        return attempt.finish()
+
+    def _key(self, told, axis):
+        if "Hold still" in told:
+            return 0 * axis
+        if "draw back" in told:
+            return -0.25e-3 * axis
+        if "draw it out" in told:
+            return -1e-3 * axis
+        way = next((np.array(way) for word, way in WAYS.items() if word in told), None)
+        return 0.25e-3 * (axis if way is None else way)
+
+
 def in_the_vein(result):
     return result.metrics.time_to_target is not None
 
@@ -78,3 +120,18 @@ def test_who_does_not_slow_down_fails_both():
     assert "You went through the back vein wall" in result.reasons[0]
     result = hasty.tries("epidural", at_the_flavum, "ligamentum flavum")
     assert "You ran more than 2.5 mm past the ligamentum flavum" in result.reasons[0]
+
+
+@pytest.mark.parametrize(
+    "name", ["steady-push", "stop-after-pop", "vein-15", "venipuncture", "vein-45", "rolling-vein"]
+)
+def test_who_does_what_the_instruction_says_passes(name):
+    result = ByKeys().tries(name)
+    assert result.passed, result.reasons
+
+
+def test_between_the_skin_and_the_vein_a_cue_says_that_the_needle_points_beside_it():
+    person = ByKeys(blind_s=6.5)
+    result = person.tries("rolling-vein")
+    assert "The needle points 4 mm beside the line: draw it out, and move it towards you." in person.heard
+    assert result.passed and result.metrics.entries == 2, result.reasons

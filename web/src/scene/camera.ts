@@ -5,8 +5,8 @@ export type Preset = "oblique" | "side" | "top" | "needle";
 const SETTLE_MS = 90;
 const CLOSEST_MM = 4;
 const FARTHEST_MM = 900;
-/** Below this sine of the angle between view and needle, the camera looks along the needle. */
-const SIDEWAYS = 0.35;
+/** Below this sine of the angle between view and plane, the camera sees the plane from its edge. */
+const EDGE = 0.15;
 const STEEPEST = MathUtils.degToRad(89.5);
 
 interface Pose {
@@ -142,17 +142,16 @@ export class OrbitCamera {
   }
 
   /**
-   * Projects a pixel to a plane through `point`. The plane contains `axis` and faces the camera as far as possible, so
-   * a drag along the needle on the screen moves along the needle. If the camera looks along the needle, the plane is
-   * the view plane.
+   * Projects a pixel to the plane through `point` with this normal. Where the camera sees that plane from its edge, a
+   * drag along the edge moves in the plane, and one across it does nothing.
    */
-  inPlaneOf(point: Vector3, axis: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
+  onPlane(point: Vector3, normal: Vector3, x: number, y: number, width: number, height: number): Vector3 | null {
     const at = new Vector2((2 * x) / width - 1, 1 - (2 * y) / height);
     const ray = new Ray(this.camera.position.clone());
     ray.direction.set(at.x, at.y, 0.5).unproject(this.camera).sub(ray.origin).normalize();
     const facing = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
-    const across = facing.clone().addScaledVector(axis, -facing.dot(axis));
-    if (across.length() > SIDEWAYS) facing.copy(across.normalize());
-    return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(facing, point), new Vector3());
+    const seen = Math.abs(facing.dot(normal)) > EDGE ? normal : facing;
+    const found = ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(seen, point), new Vector3());
+    return found?.addScaledVector(normal, -found.clone().sub(point).dot(normal)) ?? null;
   }
 }

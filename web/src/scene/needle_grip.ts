@@ -12,7 +12,7 @@ type Pixels = readonly [x: number, y: number];
 
 /**
  * Turns gestures into moves of the hand and the camera. The hand keeps its offset to the pointer. free: whether a drag
- * also moves sideways without Shift.
+ * moves sideways without Shift: along the surface of the first membrane, not in.
  */
 export function needleGrip(
   hand: Hand,
@@ -25,6 +25,7 @@ export function needleGrip(
   const start = new Vector3(); // of the hand, mm
   const offset = new Vector3();
   const axis = new Vector3();
+  const normal = new Vector3();
   let sideways = false;
   let from: Pixels = [0, 0];
   let inward: Pixels = [0, 0];
@@ -34,7 +35,7 @@ export function needleGrip(
   const at = (x: number, y: number): Vector3 | null => {
     const [width, height] = size;
     const now = (height * stage.width) / stage.height; // the camera's angle is that of the height
-    return orbit.inPlaneOf(start, axis, x + (now - width) / 2, y, now, height);
+    return orbit.onPlane(start, normal, x + (now - width) / 2, y, now, height);
   };
   const onScreen = (point: Vector3, camera: Camera): Pixels => {
     const { x, y } = point.clone().project(camera);
@@ -46,6 +47,7 @@ export function needleGrip(
       if (!pose) return false;
       start.set(...pose.position).multiplyScalar(MM);
       axis.set(...pose.axis).normalize();
+      normal.set(...hand.normal()).normalize();
       sideways = shift || free();
       size = [stage.width, stage.height];
       const pointer = sideways ? at(x, y) : start;
