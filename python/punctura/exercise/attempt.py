@@ -273,7 +273,11 @@ class Attempt:
             version=__version__,
             passed=self.passed,
             withheld=self._withheld,
-            reasons=[*self._reasons(ended=True), *words.of_force(self._measures)],
+            reasons=[
+                *self._reasons(ended=True),
+                *words.of_force(self._measures),
+                *words.of_page(self._measures.page_late),
+            ],
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),
             events=self._events,

@@ -15,7 +15,7 @@ from punctura.exercise.losses import Losses
 from punctura.exercise.path import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Geometry, JudgedTicks
+from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks
 from punctura.exercise.yield_measures import YieldMeasures
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
@@ -62,6 +62,7 @@ class Measures:
         self._next_tick: int | None = None
         self._lost = 0
         self._cut = dict.fromkeys(CUTS, 0)  # ticks
+        self._late = 0  # ticks without a word of the page
         self._off = 0  # ticks in the tissue without force, since the last entry
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
@@ -78,6 +79,7 @@ class Measures:
         if touches:
             self._off, off = 0, off[ticks.tick >= touches[-1].tick]
         self._off += int(off.sum())
+        self._late += int((ticks.age > LATE_S).sum())
         for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
@@ -153,6 +155,11 @@ class Measures:
         return self._off / self._rate
 
     @property
+    def page_late(self) -> float:
+        """Time in which the page that moves the hand was late, s."""
+        return self._late / self._rate
+
+    @property
     def elapsed(self) -> float:
         """Time from the first contact to the last tick before the decision, s."""
         return self._last_time - self.first_touch if self.first_touch is not None else 0.0
@@ -195,4 +202,5 @@ class Measures:
             lost_ticks=self._lost,
             force_cut=self.force_cut,
             force_off=self.force_off,
+            page_late=self.page_late,
         )

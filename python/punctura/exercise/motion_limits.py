@@ -12,7 +12,7 @@ from punctura.exercise.limit import Limit, Moment, by
 from punctura.exercise.schema import EntryAngle, ExerciseFile, MostDepth, MostSpeed, NoPause
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.speed import MeanSpeed
-from punctura.exercise.ticks import ROUNDING, JudgedTicks
+from punctura.exercise.ticks import LATE_S, ROUNDING, JudgedTicks
 
 PAUSE_SPEED = 0.5e-3  # m/s; a slower needle stands still
 PAUSE_MEAN_S, SPEED_MEAN_S = 0.25, 0.1  # over which a speed is measured: longer than a period of tremor, or nearly
@@ -83,7 +83,7 @@ class PauseJudge(Limit):
         moved, known = self._speed.add(ticks)
         arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
         self._arrived = bool(arrived[-1])
-        slow = known & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & ~arrived
+        slow = known & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & ~arrived & (ticks.age <= LATE_S)
         step = np.diff(ticks.time, prepend=ticks.time[0] if self._before is None else self._before)
         self._before = float(ticks.time[-1])
         total = self._still + np.cumsum(np.where(slow, step, 0.0))

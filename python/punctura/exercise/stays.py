@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
+from punctura.exercise.ticks import GONE_S, Flags, JudgedTicks, Numbers
 
 MOST_GAP_S = 0.02  # allowed time without a reading: too short for a relevant motion of the hand
 
@@ -21,7 +21,8 @@ class Stays:
 
     def mark(self, ticks: JudgedTicks) -> JudgedTicks:
         """Returns the ticks with `in_space`, `stay` and `dwell` filled in."""
-        inside = np.stack([self._space.holds(ticks, whole) for whole in (False, True)], axis=1)
+        here = ticks.age <= GONE_S
+        inside = np.stack([self._space.holds(ticks, whole) & here for whole in (False, True)], axis=1)
         times = [one.add(ticks.time, inside[:, k]) for k, one in enumerate(self._stays)]
         stay, dwell = (np.stack(columns, axis=1) for columns in zip(*times, strict=True))
         return replace(ticks, in_space=inside, stay=stay, dwell=dwell)

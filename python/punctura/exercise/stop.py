@@ -11,7 +11,7 @@ from punctura.events import Event
 from punctura.exercise.limit import Limit, Moment, by, first_of
 from punctura.exercise.schema import StopAfterPop
 from punctura.exercise.space import place_of
-from punctura.exercise.ticks import Flags, JudgedTicks
+from punctura.exercise.ticks import GONE_S, Flags, JudgedTicks
 
 
 class StopJudge(Limit):
@@ -27,6 +27,7 @@ class StopJudge(Limit):
         self.membrane, self.within, self.seconds = goal.membrane, goal.within_mm * 1e-3, goal.seconds
         self.met: Moment | None = None  # the end of the first window
         self.index = place_of(scene, goal.membrane)
+        self.gone: Moment | None = None  # when the page that moves the hand had been silent for too long after a pop
         self._until = -np.inf  # the end of the last window, s
         self._popped = False  # since the tip went in
 
@@ -45,8 +46,11 @@ class StopJudge(Limit):
             if k:
                 self._until = pops[k - 1].time + self.seconds
             part = ticks.part(slice(start, end))
-            window[start:end] = part.time <= self._until
-            self._miss(part, (part.run_on[:, i] > self.within) & window[start:end])
+            self._miss(part, (part.run_on[:, i] > self.within) & (part.time <= self._until))
+            # Open until the page is heard again: a hand that it holds does not stop.
+            window[start:end] = part.time - part.age <= self._until
+            if self.gone is None:
+                self.gone = first_of(part, window[start:end] & (part.age > GONE_S))
             if self.met is None and self.popped:
                 self.met = first_of(part, ~window[start:end])
         held = ticks.inside[:, i] & ~self._popped_since_entry(ticks, cuts)
@@ -65,7 +69,7 @@ class StopJudge(Limit):
         return flags
 
     def measured(self, until: Moment | None) -> bool:
-        return by(self.met, until) and super().measured(until)
+        return by(self.met, until) and not by(self.gone, until) and super().measured(until)
 
     def state(self, until: Moment | None, complete: bool) -> str:
         state = super().state(until, complete)

@@ -16,6 +16,8 @@ Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 ROUNDING = 1e-12  # m
+LATE_S = 0.3  # a page without a word for longer is late: it speaks ten times a second
+GONE_S = 1.0  # a needle that such a page holds neither stays nor stops. Longer, so that a slow computer can pass
 _OFF = [state.value for state in (ServoState.disarmed, ServoState.waiting, ServoState.faulted)]  # no force
 
 
@@ -42,6 +44,7 @@ class JudgedTicks:
     fault: NDArray[np.int64]
     limit: NDArray[np.int64]  # the Limit that cut the device's force; another number if unknown
     new_scene: Flags
+    age: Numbers  # s since the page that moves the hand was last heard; 0 if the hand is none of a page
     inside: Flags  # (n, m), the membrane holds the needle
     resistance: Numbers  # (n, m), N, against the needle
     depth: Numbers  # (n, m), depth of the point, m: along the needle while inside, else along the normal
@@ -128,6 +131,7 @@ class Geometry:
             fault=columns["fault"].astype(np.int64) if "fault" in columns else zeros,
             limit=columns["limit"].astype(np.int64) if "limit" in columns else zeros,
             new_scene=(columns.get("commands", zeros).astype(np.int64) & COMMAND_SCENE) != 0,
+            age=np.asarray(columns["page_age"], np.float64) if "page_age" in columns else np.zeros(n),
             inside=inside,
             resistance=-_wide(columns["axial_force"], m, np.nan),
             depth=depth,

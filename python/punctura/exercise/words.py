@@ -71,7 +71,9 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
     if limit.unseen is not None and by(limit.unseen, until):
         return f"Not measured: “{limit.text}”. Readings were missing at {tenths(limit.unseen.time)} s of the run."
     if isinstance(limit, StopJudge):
-        if limit.popped:
+        if limit.gone is not None and by(limit.gone, until):
+            when = "the page was late then, so that nobody moved the needle"
+        elif limit.popped:
             when = f"the attempt ended within {limit.seconds:g} s after the {limit.membrane} gave way"
         else:
             when = f"the {limit.membrane} never gave way"
@@ -157,6 +159,12 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
     if achievement.left:
         return f"You left {space.name} before everything was measured."
     return f"Not done: {achievement.text}."
+
+
+def of_page(late: float) -> list[str]:
+    """Tells how long the page that moves the hand was silent."""
+    text = f"The page was late: for {tenths(late)} s it sent nothing, so the needle stood still. This is no pause."
+    return [text] if late >= 0.5 else []
 
 
 def of_force(measures: Measures) -> list[str]:

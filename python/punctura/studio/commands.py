@@ -184,7 +184,7 @@ def _activity(
     """Results of a draft are not kept: the next draft has the same name and may ask for something else."""
     results = None if exercise.name == DRAFT else session.results
     second = session.bench.settings.second is not None
-    return ExerciseActivity(exercise, request.person, recording, results, request.group, second)
+    return ExerciseActivity(exercise, request.person, recording, results, request.group, second, session.heard)
 
 
 def _prepare_expert(request: ask.SetExpert, session: Session) -> Job:

@@ -9,6 +9,7 @@ from punctura.errors import sentence_of
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.exercise.result import Status
 from punctura.studio.activity import Outcome
+from punctura.studio.heard import Heard
 from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
 from punctura.ticks import Ticks
 
@@ -33,11 +34,13 @@ class ExerciseActivity:
         results: ResultStore | None,
         group: str = "",
         second_device: bool = False,
+        heard: Heard | None = None,
     ) -> None:
         """recording: the name of the run's recording. results: where the result is saved, if at all. group: a class.
-        second_device: the thumb is on one."""
+        second_device: the thumb is on one. heard: when the page that moves the hand was heard."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
         self._group, self._second_device = group, second_device
+        self._heard = heard or Heard()
         self._attempt: Attempt
         self._told: ExerciseStatus | None = None
         self.end_at: float | None = None
@@ -47,7 +50,7 @@ class ExerciseActivity:
 
     def ticks(self, ticks: Ticks, now: float) -> list[ExerciseStatus]:
         """Returns the status if it has changed."""
-        self._attempt.add(ticks)
+        self._attempt.add({**ticks, "page_age": self._heard.age(ticks["time"], now)})
         if self._attempt.settled and self.end_at is None:
             self.end_at = now + LINGER_S
         status = self._status(running=True)

@@ -19,7 +19,7 @@ from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import LoadText, NumberedRequest, OpenExercise, Pause, TakeControl, Target
+from punctura.studio.wire.requests import Awake, LoadText, NumberedRequest, OpenExercise, Pause, TakeControl, Target
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
@@ -112,6 +112,10 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
     if isinstance(request, Target):
         if hub.holder == viewer.number:
             session.target(request)
+        return None
+    if isinstance(request, Awake):
+        if hub.holder == viewer.number:
+            session.heard.hear(awake=True)
         return None
     if isinstance(request, TakeControl):
         hub.take_control(viewer)

@@ -13,6 +13,7 @@ from punctura.studio.estimating import no_estimate
 from punctura.studio.fault_words import STILL_OFF
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
+from punctura.studio.heard import Heard
 from punctura.studio.jobs import Jobs
 from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.loaded import Loaded
@@ -35,6 +36,7 @@ class Runs:
         self.jobs = Jobs()
         self.bench = Bench(settings, loaded.scene)
         self.hand = Hand()
+        self.heard = Heard()
         self.run = Run(0, self.bench, loaded)
         self.kept_ticks = KeptTicks()
         self.pump = Pump(self.run, out, self.kept_ticks)
@@ -147,6 +149,7 @@ class Runs:
         self.pump.compare(self.compare)
         self.pump.estimate(self.estimate)
         self.hand.take(self.run.loop.device, self.run.pose)
+        self.heard.forget()
         self.arming.begin(self.run.loop)
         self.out.say(no_fault())
         self.activities.tell_idle()

@@ -91,6 +91,7 @@ class Session(Runs):
 
     def target(self, wish: Target) -> None:
         """From any thread: where the simulated hand must go. A later target replaces one that still waits."""
+        self.heard.hear()
         waiting, self._target = self._target, wish
         if waiting is None:
             self.jobs.post(self._take_target)

@@ -160,7 +160,7 @@ def test_nothing_at_all_gives_a_result_without_metrics(write):
         "entries": 0, "peak_force": 0, "peak_felt_force": 0, "force_scale": 1, "losses": [], "yields": [],
         "overshoot": [], "dwell": 0, "longest_stay": 0, "path_length": None, "net_distance": None, "straightness": None,
         "lateral_deviation": None, "entry_angle": None,
-        "time_to_target": None, "total_time": 0, "lost_ticks": 0, "force_cut": {}, "force_off": 0,
+        "time_to_target": None, "total_time": 0, "lost_ticks": 0, "force_cut": {}, "force_off": 0, "page_late": 0,
     }  # fmt: skip
 
 

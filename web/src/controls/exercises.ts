@@ -1,3 +1,4 @@
+import { tellAwake } from "../hand/awake.ts";
 import { element, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
@@ -42,6 +43,7 @@ export const exercisesPanel: Panel = (host, app) => {
   };
   const past = pastResults(app, open, (result) => titleOf(result.exercise, result.title));
   const task = element("div", { class: "task" });
+  tellAwake(app);
   const showTitle = taskBar(task, app, titleOf);
   document.getElementById("app")?.append(task);
   const maker = exerciseMaker(app, person, () => readList());

@@ -37,4 +37,6 @@ export interface Engine {
    * animation frame is sent. The server ignores targets of another run.
    */
   target(run: number, position: Triple, axis: Triple, buttons?: number): void;
+  /** Says that this page can move the hand. Only a studio wants to know. */
+  awake?(): void;
 }

@@ -81,6 +81,10 @@ export class SocketEngine implements Engine {
     if (first) this.around.frame(() => this.sendTarget());
   }
 
+  awake(): void {
+    if (this.socket?.readyState === 1) this.socket.send(JSON.stringify({ do: "awake" }));
+  }
+
   private sendTarget(): void {
     const target = this.nextTarget;
     this.nextTarget = null;

@@ -19,6 +19,7 @@ export type Request =
   | Pause
   | Reset
   | Target
+  | Awake
   | Strokes
   | PushPlunger
   | PlayMotion
@@ -390,6 +391,12 @@ export interface Target {
    */
   axis: [number, number, number];
   buttons?: number;
+}
+/**
+ * The page can move the hand: about ten times a second while an exercise runs. No reply.
+ */
+export interface Awake {
+  do: "awake";
 }
 /**
  * The simulated hand strokes through all membranes and back, until the next target.

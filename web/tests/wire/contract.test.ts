@@ -43,7 +43,8 @@ it("has one of each kind of message and request that the page has a type for", (
     exercise: true, reply: true, notice: true,
   }; // biome-ignore format: a table
   const requests: Record<Request["do"], true> = {
-    take_control: true, arm: true, pause: true, reset: true, target: true, strokes: true,
+    take_control: true, arm: true, pause: true, reset: true, target: true,
+    awake: true, strokes: true,
     push_plunger: true, play_motion: true, edit: true,
     load: true, load_text: true, compare: true, estimate: true,
     start_recording: true, stop_recording: true, start_exercise: true,

@@ -9,7 +9,7 @@ from punctura.exercise.achievements import FeelJudge
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen, degrees, millilitres, mm, speed, times
 from punctura.exercise.limits import EntriesJudge, ForceJudge, LineJudge, NeverPassJudge, TimeJudge
-from punctura.exercise.motion_limits import PauseJudge, SpeedJudge
+from punctura.exercise.motion_limits import SpeedJudge
 from punctura.exercise.plunger import PlungerJudge
 from punctura.exercise.remark import Remark
 from punctura.exercise.stop import StopJudge
@@ -218,7 +218,7 @@ def trembled(seen: Seen) -> Iterator[Remark]:
 
 def paused(seen: Seen) -> Iterator[Remark]:
     count, seconds = seen.pauses
-    if seconds >= t.PAUSES_S or (count and any(seen.missed(PauseJudge))):
+    if seconds >= t.PAUSES_S:
         text = (
             f"You stood still {times(count)} in the tissue on the way, for {tenths(seconds)} s together: push slowly "
             "but without a pause."

@@ -47,7 +47,7 @@ def stays_of(samples: Samples) -> int:
 def pauses_of(samples: Samples, until: float) -> Pauses:
     """The pauses in the tissue before the time `until`, s, of the arrival or of the end."""
     rows = (samples.time <= until) & np.isfinite(samples.tip).all(axis=1)
-    time, tip, inside = samples.time[rows], samples.tip[rows], samples.inside[rows]
+    time, tip, inside = samples.time[rows], samples.tip[rows], (samples.inside & ~samples.late)[rows]
     if len(time) < 3 or time[-1] - time[0] < PAUSE_S:
         return Pauses(0, 0.0)
     smooth, _ = _smooth(time, tip)

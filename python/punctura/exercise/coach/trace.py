@@ -9,7 +9,7 @@ import numpy as np
 from punctura.events import Event
 from punctura.exercise.coach.thresholds import BEFORE_S
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
+from punctura.exercise.ticks import LATE_S, Flags, JudgedTicks, Numbers
 
 SAMPLES_HZ = 100.0  # enough for a tremor of 12 Hz
 _TICK_S = 1e-9  # rounding of times
@@ -40,6 +40,7 @@ class Samples(NamedTuple):
     tip: Numbers  # (n, 3), m
     inside: Flags  # a membrane holds the needle
     in_space: Flags  # of the point, or of the whole tip if the exercise asks for it
+    late: Flags  # the page that moves the hand is late
 
 
 class Trace:
@@ -67,7 +68,11 @@ class Trace:
         self._recent = _Recent(*(column[late] for column in self._recent))
         rows = ticks.tick % self._step == 0
         in_space = ticks.in_space[rows, int(self._space.stay_whole)]
-        self._parts.append(Samples(ticks.time[rows], ticks.tip[rows], ticks.inside[rows].any(axis=1), in_space))
+        self._parts.append(
+            Samples(
+                ticks.time[rows], ticks.tip[rows], ticks.inside[rows].any(axis=1), in_space, ticks.age[rows] > LATE_S
+            )
+        )
         self._depths(ticks)
 
     def _push(self, until: float, membrane: int) -> Push:
@@ -105,7 +110,8 @@ class Trace:
     @property
     def samples(self) -> Samples:
         if not self._parts:
-            return Samples(np.zeros(0), np.zeros((0, 3)), np.zeros(0, np.bool_), np.zeros(0, np.bool_))
+            no = np.zeros(0, np.bool_)
+            return Samples(np.zeros(0), np.zeros((0, 3)), no, no, no)
         whole = Samples(*(np.concatenate(columns) for columns in zip(*self._parts, strict=True)))
         self._parts = [whole]
         return whole

@@ -47,6 +47,12 @@ class Target(Part):
     buttons: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
 
 
+class Awake(Part):
+    """The page can move the hand: about ten times a second while an exercise runs. No reply."""
+
+    do: Literal["awake"] = "awake"
+
+
 class Strokes(_Request):
     """The simulated hand strokes through all membranes and back, until the next target."""
 
@@ -188,8 +194,8 @@ NumberedRequest = (
     | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
-    TakeControl | Arm | Pause | Reset | Target | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
-    | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    TakeControl | Arm | Pause | Reset | Target | Awake | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText
+    | Compare | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
