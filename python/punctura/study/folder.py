@@ -147,7 +147,7 @@ def _holds(path: Path, schema: pa.Schema, rows: range) -> bool:
     """Whether a file has these columns and rows, and every page the right checksum. Warns if it has not."""
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            good = file.schema_arrow.equals(schema, check_metadata=False)
+            good = bool(file.schema_arrow.equals(schema, check_metadata=False))
             begin = rows.start
             for i in range(file.num_row_groups if good else 0):
                 group = file.read_row_group(i)
