@@ -141,7 +141,7 @@ def test_a_scene_is_saved_as_a_file_that_the_package_reads_and_loaded_again(page
 def test_a_fault_ends_the_force_until_it_is_turned_on(page: Page) -> None:
     tab(page, "Health").get_by_role("button", name="Try a fault").click()
     banner = page.locator(".panel.fault")
-    expect(banner).to_contain_text("The device reported a position or a direction that is not a number.")
+    expect(banner).to_contain_text("The device reported a number that is not finite")
     out = banner.get_by_role("button", name="Draw the needle out")
     if out.count():
         out.click()
