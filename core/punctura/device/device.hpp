@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -51,7 +50,8 @@ struct MotorUse {
 /// The callback of a device. The device calls it once per reading. It returns the force for the device, N.
 ///
 /// It never throws and never waits. It is the last guard before every motor: a force that is not finite becomes zero,
-/// and one above max_force is shortened. A back-end needs no guard of its own.
+/// and one above max_force is shortened. Without a limit (NaN, negative) there is no force. A back-end needs no guard
+/// of its own.
 struct Tick {
   using Force = std::array<double, 3>;
   Force (*call)(void* context, const DeviceSample& sample) noexcept;
@@ -60,9 +60,9 @@ struct Tick {
 
   Force operator()(const DeviceSample& sample) const noexcept {
     const Vector3d force = to_vector(call(context, sample));
+    if (!force.allFinite() || !(max_force >= 0)) return {0, 0, 0};
     if (force.squaredNorm() <= max_force * max_force) return to_array(force);
-    const double norm = force.stableNorm();
-    return std::isfinite(norm) ? to_array(max_force / norm * force) : Force{0, 0, 0};
+    return to_array(max_force / force.stableNorm() * force);
   }
 };
 

@@ -8,10 +8,10 @@
 using namespace punctura;
 
 namespace {
-/// What a device gets from a loop that computes this force, with a limit of 5 N.
-Tick::Force given(Tick::Force computed) {
+/// What a device gets from a loop that computes this force. max_force: N
+Tick::Force given(Tick::Force computed, double max_force = 5) {
   const Tick tick{[](void* force, const DeviceSample&) noexcept { return *static_cast<Tick::Force*>(force); },
-                  &computed, 5};
+                  &computed, max_force};
   return tick({});
 }
 }  // namespace
@@ -23,6 +23,7 @@ TEST_CASE("no device gets a force that is not finite") {
       Tick::Force computed{1, 2, 3};
       computed[i] = bad;
       CHECK(given(computed) == Tick::Force{0, 0, 0});
+      CHECK(given(computed, infinite) == Tick::Force{0, 0, 0});
     }
 }
 
@@ -32,4 +33,10 @@ TEST_CASE("no device gets a force above the limit; the direction stays, and a sm
   CHECK(given({0, -1e300, 1e300})[1] == doctest::Approx(-5 / std::sqrt(2.0)));
   CHECK(given({0.1, -1e-310, 4.9}) == Tick::Force{0.1, -1e-310, 4.9});
   CHECK(given({3, 4, 0}) == Tick::Force{3, 4, 0});
+}
+
+TEST_CASE("a limit that is NaN or negative lets no force through") {
+  for (double limit : {std::numeric_limits<double>::quiet_NaN(), -5.0, -0.1})
+    for (double newtons : {0.1, 4.0, 10.0}) CHECK(given({newtons, 0, 0}, limit) == Tick::Force{0, 0, 0});
+  CHECK(given({0, 2, 0}, 0) == Tick::Force{0, 0, 0});
 }
