@@ -184,7 +184,6 @@ void bind_runtime(nb::module_& m) {
       .def(
           "start",
           [](ServoLoop& loop, std::optional<double> duration) {
-            if (duration && !(*duration >= 0)) throw nb::value_error("duration must be 0 s or more");
             const WithoutLock release;
             loop.start(duration.value_or(ServoLoop::endless));
           },

@@ -88,7 +88,9 @@ SnapshotRing& ServoLoop::listen(std::size_t capacity) {
 }
 
 void ServoLoop::start(double duration) {
+  if (!(duration >= 0)) throw std::invalid_argument("duration must be 0 s or more");
   const std::lock_guard one(starting_or_stopping_);
+  if (settings_.now_ns() >= ends_at_) halt();  // the run is over, and its end has not been noticed yet
   {
     const std::lock_guard lock(between_ticks_);
     if (running_) return;
@@ -100,11 +102,9 @@ void ServoLoop::start(double duration) {
       ask(reset_bit);  // do not take the motion since the last run for one of this run
     over_ = false;
     silent_s_ = thumb_silent_s_ = 0;
-    const std::int64_t now = settings_.now_ns();
-    ends_at_ = duration < 1e9 ? now + static_cast<std::int64_t>(duration * 1e9) : never_;
-    ticks_watch_.begin(ticks_, now);
-    if (settings_.thumb) thumb_watch_.begin(settings_.thumb->ticks(), now);
+    ends_at_ = duration < 1e9 ? settings_.now_ns() + static_cast<std::int64_t>(duration * 1e9) : never_;
   }
+  const std::uint64_t ticks = ticks_, thumb_ticks = settings_.thumb ? settings_.thumb->ticks() : 0;
   try {
     watch_.start([this] { return look(); });
     if (settings_.thumb) {
@@ -112,6 +112,9 @@ void ServoLoop::start(double duration) {
       thumb_runs_ = true;
     }
     device_->start({&ServoLoop::call, this, settings_.limits.max_force});
+    const std::int64_t now = settings_.now_ns();  // a device may take long to start: that is no silence
+    ticks_watch_.begin(ticks, now);
+    thumb_watch_.begin(thumb_ticks, now);
   } catch (...) {
     stop_thumb();
     end_run();
@@ -133,7 +136,8 @@ bool ServoLoop::look() noexcept {
   const std::int64_t now = settings_.now_ns();
   silent_s_ = ticks_watch_.silent(ticks_, now, device_->longest_silence(), settings_.gate.deadline);
   if (ThumbLoop* thumb = settings_.thumb.get())
-    thumb_silent_s_ = thumb_watch_.silent(thumb->ticks(), now, thumb->device().longest_silence(), 0);
+    thumb_silent_s_ =
+        thumb_watch_.silent(thumb->ticks(), now, thumb->device().longest_silence(), thumb->gate().deadline);
   if (now < ends_at_ && silent_s_ == 0 && thumb_silent_s_ == 0) return true;
   over_ = true;  // first: a driver's stop may never return
   halt();

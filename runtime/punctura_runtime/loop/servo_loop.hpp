@@ -77,7 +77,7 @@ class ServoLoop {
   SnapshotRing& listen() { return listen(room()); }
 
   static constexpr double endless = std::numeric_limits<double>::infinity();
-  void start(double duration = endless);  ///< disarmed; duration: s. Throws DeviceError
+  void start(double duration = endless);  ///< disarmed; duration: s. Throws DeviceError, invalid_argument
   void stop() noexcept;                   ///< zero force, then no more ticks
   bool running() const noexcept { return running_; }
   /// Whether the last start()'s run has ended by itself. Its device may still be stopping.

@@ -36,6 +36,7 @@ class ThumbLoop {
   ThumbLoop& operator=(const ThumbLoop&) = delete;
 
   Device& device() noexcept { return *device_; }
+  const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
 
   void start();  ///< Throws DeviceError, also if another loop runs it

@@ -10,7 +10,7 @@ namespace punctura {
 
 class TickWatch {
  public:
-  /// ticks: of the device so far. now: ns.
+  /// ticks: before the device was started. now: once it has started, ns.
   void begin(std::uint64_t ticks, std::int64_t now) noexcept {
     first_ = ticks_ = ticks;
     since_ = now;

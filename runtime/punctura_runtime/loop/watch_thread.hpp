@@ -8,13 +8,17 @@
 #include <thread>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
-/// Calls look() about 20 times a second, until it returns false, or until stop().
+/// Calls look() about 20 times a second, until it returns false, or until stop(). It asks for a low real-time priority,
+/// so that a busy computer does not hold it up.
 class WatchThread {
  public:
   static constexpr std::chrono::milliseconds interval{50};
+  static constexpr os::RealtimeSettings priority{
+      .priority = 10, .lock_memory = false, .awake = false, .period = std::chrono::duration<double>(interval).count()};
 
   WatchThread() = default;
   WatchThread(const WatchThread&) = delete;
@@ -28,6 +32,7 @@ class WatchThread {
     over_ = false;
     try {
       thread_ = std::thread([this, look] {
+        os::make_realtime(priority);
         std::unique_lock lock(mutex_);
         while (!wake_.wait_for(lock, interval, [this] { return over_; })) {
           lock.unlock();

@@ -1,5 +1,8 @@
 // A run that ends by itself: after its duration, and where ticks cease.
 #include <doctest/doctest.h>
+#ifdef __linux__
+#include <sched.h>
+#endif
 
 #include <atomic>
 #include <chrono>
@@ -50,6 +53,21 @@ struct WatchedRun {
     return until([&] { return !loop.running(); });
   }
   ServoLoop loop;
+};
+
+/// A device without a tick, at which the loop's thread looks.
+struct WatchedDevice : FedDevice {
+  WatchedDevice() : FedDevice(fed_device(true)->info()) {}
+  LongestSilence longest_silence() const noexcept override {
+    ++looks;
+    return FedDevice::longest_silence();
+  }
+  /// Waits until the loop has looked once with the present time. False after a minute, and when the run has ended.
+  bool looked_at() const {
+    const int third = looks + 3;  // the first may have begun before, and the second has ended when the third begins
+    return WatchedRun::until([&] { return looks >= third; });
+  }
+  mutable std::atomic<int> looks{0};
 };
 
 }  // namespace
@@ -110,6 +128,67 @@ TEST_CASE("a silent second device ends the run, too") {
   CHECK(w.stopped());
   CHECK(w.loop.silence().starts_with("the second device's ticks have ceased"));
 }
+
+TEST_CASE("a second device may be silent for five of its own deadlines") {
+  auto under = std::make_shared<WatchedDevice>();
+  ThumbSettings slow;
+  slow.gate.deadline = 10;
+  WatchedRun w(fed_device(false), std::make_shared<ThumbLoop>(under, slow));
+  w.loop.start();
+  run_clock_ns += 49 * one_second;
+  CHECK(under->looked_at());
+  CHECK_FALSE(w.loop.over());
+  run_clock_ns += 2 * one_second;
+  CHECK(w.stopped());
+}
+
+TEST_CASE("a device that takes long to start was not silent meanwhile") {
+  struct SlowToStart : WatchedDevice {
+    void start(Tick tick) override {
+      run_clock_ns += 60 * one_second;
+      WatchedDevice::start(tick);
+    }
+  };
+  auto device = std::make_shared<SlowToStart>();
+  WatchedRun w(device);
+  w.loop.start();
+  CHECK(device->looked_at());
+  CHECK_FALSE(w.loop.over());
+  run_clock_ns += 31 * one_second;
+  CHECK(w.stopped());
+}
+
+TEST_CASE("a run begins though nobody has noticed yet that the one before is over") {
+  auto device = fed_device(false);
+  WatchedRun w(device);
+  for (std::uint64_t run = 1; run <= 3; ++run) {
+    w.loop.start(3.0);
+    device->feed({{0, 1e-3, 0}});
+    CHECK(w.loop.report().ticks == run);
+    run_clock_ns += 3 * one_second;
+  }
+}
+
+TEST_CASE("a duration is a number of 0 or more") {
+  WatchedRun w(fed_device(false));
+  for (const double wrong : {-1.0, unknown}) CHECK_THROWS_AS(w.loop.start(wrong), std::invalid_argument);
+  CHECK_FALSE(w.loop.running());
+}
+
+#ifdef __linux__
+TEST_CASE("the thread that watches has real-time priority, where the system grants it") {
+  bool granted = false;
+  std::thread([&] { granted = os::make_realtime(WatchThread::priority).at(0).granted; }).join();
+  std::atomic<int> policy{-1};
+  WatchThread watch;
+  watch.start([&] {
+    policy = sched_getscheduler(0);
+    return false;
+  });
+  CHECK(WatchedRun::until([&] { return policy != -1; }));
+  CHECK(policy == (granted ? SCHED_FIFO : SCHED_OTHER));
+}
+#endif
 
 TEST_CASE("the longest silence: of hardware, of a deadline, of a device that nobody holds") {
   TickWatch watch;

@@ -1,5 +1,6 @@
 // The tick within the HD scheduler: begin frame, read, compute, set force, end frame, errors. Nothing here throws,
 // allocates, locks or logs.
+#include <chrono>
 #include <cmath>
 
 #include "punctura_runtime/backends/openhaptics/openhaptics_tick.hpp"
@@ -43,7 +44,8 @@ void Ticking::begin(Tick tick) noexcept {
 
 void Ticking::end() noexcept {
   stop_soon();
-  while (in_tick_) std::this_thread::yield();  // microseconds
+  // A tick takes microseconds. A thread of real-time priority that only yields would keep the processor from it.
+  while (in_tick_) std::this_thread::sleep_for(std::chrono::microseconds(50));
 }
 
 bool Ticking::call() noexcept {
