@@ -59,7 +59,12 @@ class NeedleServer:
             return None
         stamp, clock, tip = self._last
         now = stamp + time.monotonic() - clock - _WAIT_S
-        force = self.place[:3, :3] @ self.needle.hold(now)
+        try:
+            force = self.place[:3, :3] @ self.needle.hold(now)
+        except ValueError as error:  # this computer slept for more than an hour
+            self._last = None
+            say(f"the last pose is held no longer: {error}")
+            return None
         return now, force, self._arrow(tip, force)
 
     def _arrow(self, tip: np.ndarray, force: np.ndarray) -> np.ndarray:

@@ -81,13 +81,17 @@ class PosedNeedle:
             raise ValueError(f"time, position and axis must be finite, and the axis not 0: {time}, {pose}")
         if abs(time) > _LATEST:
             raise ValueError(
-                f"the time of a pose must be in seconds, and {time:g} is not: {_in_seconds(abs(time) / 2e9)}"
+                f"the time of a pose must be in seconds, and {time:g} is not: multiply ms by 1e-3, us by 1e-6, "
+                "ns by 1e-9"
             )
         step, gap = time - self._stamp, self.longest_gap
         if -gap <= step < 0:
             self._drop(step)
             return self.force
         ahead = time - self._time  # less than 0 if hold() was called
+        if ahead < -gap:  # the sender's clock stood still meanwhile: go on at its time, not when it has caught up
+            self._start += ahead
+            self._time, ahead = time, 0.0
         if ahead > gap and step > 0 and self.hold_last_pose and ahead <= _LONGEST_HOLD:
             self.hold(time - gap)
             ahead = gap

@@ -73,7 +73,12 @@ class NeedleNode(Node):
         if self._last is not None:
             message, time, clock = self._last
             held = max(time, time + self._now() - clock - _HOLD_S)
-            force = self._needle.hold(held)
+            try:
+                force = self._needle.hold(held)
+            except ValueError as error:  # the clock was set by more than an hour
+                self._warn(f"the last pose is held no longer: {error}")
+                self._last = None
+                return
             self._publish(Time(sec=int(held), nanosec=int(held % 1 * 1e9)), message.header.frame_id, force)
 
     def _now(self) -> float:

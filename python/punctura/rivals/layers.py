@@ -54,7 +54,7 @@ def load_layers(file: str | os.PathLike[str]) -> tuple[Layer, ...]:
         if not isinstance(held, Mapping) or held.get("format") != FORMAT:
             raise PuncturaError(f'{file}: is no file of rivals: it must have "format": "{FORMAT}"')
         return tuple(Layer(float(one["surface_m"]), Rival(one["rival"], one["numbers"])) for one in held["layers"])
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
         if isinstance(error, PuncturaError):
             raise
         raise PuncturaError(f"{file}: is no file of rivals: {error!r}") from None

@@ -81,9 +81,13 @@ def test_times_in_another_unit_are_told_once(factor, unit):
     _, forces, notices = told(np.arange(0, 0.5, 0.01) * factor)
     assert not forces.any() and len(notices) == 2
     assert f"no force. Their times must be in seconds: they seem to be in {unit}" in notices[1]
+
+
+@pytest.mark.parametrize("time", [1.79e12, 1.79e18, 5e12])  # since 1970 in ms and ns; in ns since a start
+def test_a_time_that_is_in_no_seconds_is_refused_and_its_unit_is_not_guessed(time):
     needle = PosedNeedle(SCENE)
-    with pytest.raises(ValueError, match=f"in seconds, and .* is not: they seem to be in {unit}"):
-        needle.move(1.79e9 * factor, [0, 0, 0], AXIS)
+    with pytest.raises(ValueError, match=r"in seconds, and .* is not: multiply ms by 1e-3, us by 1e-6, ns by 1e-9"):
+        needle.move(time, [0, 0, 0], AXIS)
     assert needle.starts == 0
 
 
@@ -124,6 +128,17 @@ def test_hold_goes_on_by_itself_and_the_next_pose_may_be_a_little_older():
     assert needle.move(3.40, p[42], AXIS).any() and (needle.starts, needle.dropped) == (1, 0) and not notices
     with pytest.raises(ValueError, match="can be held for 3600 s"):
         needle.hold(1e5)
+
+
+def test_a_hold_that_ran_ahead_of_the_sender_does_not_freeze_the_force():
+    """The sender's clock stands still while it is paused; the caller of hold() has a clock of its own."""
+    p = positions(80)
+    needle, _, notices = told(0.01 * np.arange(40), p[:40])
+    needle.hold(300.0)
+    forces = np.array([needle.move(0.01 * k, p[k], AXIS) for k in range(40, 80)])
+    assert len(np.unique(forces[:, 1])) > 30 and needle.starts == 1 and not notices
+    with pytest.raises(ValueError, match="can be held for 3600 s"):
+        needle.hold(4000.0)
 
 
 @pytest.mark.parametrize("gap", [math.nan, math.inf, 0, -1, 1e3])

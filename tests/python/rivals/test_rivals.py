@@ -165,9 +165,10 @@ def test_files_of_layers_are_checked(tmp_path):
     layers = (Layer(1e-3, Rival("dahl")), Layer(3e-3, Rival("okamura", {"linear": 20.0})))
     save_layers(file, layers)
     assert load_layers(file) == layers
-    file.write_text('{"format": "other"}')
-    with pytest.raises(pn.PuncturaError, match="no file of rivals"):
-        load_layers(file)
+    for text in ('{"format": "other"}', "[" * 100_000):
+        file.write_text(text)
+        with pytest.raises(pn.PuncturaError, match="no file of rivals"):
+            load_layers(file)
 
 
 def test_a_trace_without_a_force_is_refused():
