@@ -132,6 +132,12 @@ inline double scaled_decimal(std::string_view text, std::string_view factor, lon
   if (std::from_chars(written.data(), written.data() + written.size(), power).ec == std::errc::result_out_of_range)
     power = written.front() == '-' ? -1'000'000'000 : 1'000'000'000;
   power += exponent;
+  // Of more digits it matters only whether one is not 0: halfway between two doubles there are 768 at most.
+  if (constexpr std::size_t most = 800; number.size() > most) {
+    power += static_cast<long long>(number.size() - most);
+    if (number.find_first_not_of('0', most) != std::string::npos) number[most - 1] = '1';
+    number.resize(most);
+  }
   const bool too_large = power + static_cast<long long>(number.size()) > 0;
   const double size = number.empty() ? 0
                                      : read_decimal(number + "e" + std::to_string(power))

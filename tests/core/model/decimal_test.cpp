@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <random>
+#include <string>
 
 #include "support/comma_locale.hpp"
 
@@ -46,4 +47,14 @@ TEST_CASE("decimal numbers: a number in another unit is rounded once") {
   CHECK(scaled_decimal("-1e-999999999999999999999", "1", 3) == 0);
   CHECK(scaled_decimal("0e999999999999999999999", "1", 3) == 0);
   CHECK(std::signbit(scaled_decimal("-0.0", "1", -3)));
+}
+
+TEST_CASE("a number of any length is the nearest double: no digit is too far behind to decide") {
+  const std::string zeros(1500, '0');
+  CHECK(scaled_decimal("0.5" + zeros, "1", -3) == 0.0005);
+  CHECK(scaled_decimal("1" + zeros + "e-1500", "1", 0) == 1);
+  CHECK(scaled_decimal("-0." + zeros + "25e1500", "1", 0) == -0.25);
+  const std::string half = "9007199254740993";  // between two doubles
+  CHECK(scaled_decimal(half + "." + zeros, "1", 0) == 9007199254740992.0);
+  CHECK(scaled_decimal(half + "." + zeros + "1", "1", 0) == 9007199254740994.0);
 }
