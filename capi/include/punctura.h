@@ -244,7 +244,8 @@ PUNCTURA_API punctura_status punctura_limits_init(punctura_limits* limits, size_
 typedef struct punctura_sample {
   size_t struct_size;
   uint64_t sequence;  /* number of the reading: an equal number is the same reading */
-  double time;        /* start of the tick, s, on a clock that never goes back */
+  double time;        /* start of the tick, s, on a clock that never goes back, and goes on while the computer sleeps:
+                       * on Linux CLOCK_BOOTTIME */
   double position[3]; /* of the tip, m */
   double axis[3];     /* direction of the needle, of length 1 */
   uint32_t buttons;   /* one bit for each button */

@@ -11,7 +11,7 @@ namespace punctura {
 /// A number that is not finite is a fault (input_gate.hpp). A device without a sensor leaves the default.
 struct DeviceSample {
   std::uint64_t sequence;  ///< number of the reading, counted by the device; an equal number is the same reading
-  double time;             ///< start of the tick, s, on a clock that never goes back
+  double time;  ///< start of the tick, s, on a clock that never goes back, and goes on while the computer sleeps
   std::array<double, 3> position;  ///< of the needle's tip, m
   std::array<double, 3> axis;      ///< unit direction of the needle; not read with Direction::motion
   std::uint32_t buttons;           ///< one bit for each button
