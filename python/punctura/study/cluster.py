@@ -97,8 +97,8 @@ def _connected(distributed: Any, address: str) -> Any:
         why = f"a program accepts there, and says nothing within {_PATIENCE_S} s"
     except (OSError, ValueError) as bad:
         why = str(bad)
-    except Exception:  # bytes that are not Dask's can fail in any way
-        why = "another program answers there"
+    except Exception as bad:  # bytes that are not Dask's can fail in any way
+        why = f"another program seems to answer there: {bad!r}"
     raise StudyError(
         f"--scheduler {address}: no Dask scheduler answers ({why}). Start one with dask scheduler, and workers with "
         "dask worker; give the address that the scheduler prints"

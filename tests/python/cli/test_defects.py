@@ -106,7 +106,7 @@ def test_a_traceback_is_on_the_terminal_on_request_also_that_of_a_mistake(punctu
 def test_a_log_that_takes_for_ever_holds_nobody_up(log):
     log.parent.mkdir(parents=True)
     os.mkfifo(log)
-    assert "a defect" in explain(raised(OURS["adds"]))  # the watchdog calls this before it stops the force
+    assert "a defect" in explain(raised(OURS["adds"]))  # the studio's worker calls this, and must go on
     assert "in adds\n" in log.read_text()
 
 
