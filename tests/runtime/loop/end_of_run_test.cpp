@@ -76,7 +76,7 @@ TEST_CASE("after its duration a run gives no force and records no tick, and its 
   auto device = fed_device(false);
   WatchedRun w(device);
   SnapshotRing& ring = w.loop.listen(10'000);
-  for (int run = 0; run < 2; ++run) {
+  for (unsigned run = 0; run < 2; ++run) {
     w.loop.arm();
     w.loop.start(3.0);
     bool felt = false, after = false;
@@ -92,7 +92,7 @@ TEST_CASE("after its duration a run gives no force and records no tick, and its 
     CHECK(w.stopped());
     CHECK(w.loop.over());
     CHECK(w.loop.silence().empty());
-    CHECK(w.loop.report().ticks == 4800 * (run + 1u));
+    CHECK(w.loop.report().ticks == 4800 * (run + 1));
     std::size_t recorded = 0;
     ring.pop(10'000, [&](const Snapshot&) { ++recorded; });
     CHECK(recorded == 4800);
