@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -29,12 +30,12 @@ class WatchThread {
   template <typename Look>
   void start(Look look) {
     stop();
-    over_ = false;
+    end_ = std::make_shared<End>();
     try {
-      thread_ = std::thread([this, look] {
+      thread_ = std::thread([end = end_, look] {
         os::make_realtime(priority);
-        std::unique_lock lock(mutex_);
-        while (!wake_.wait_for(lock, interval, [this] { return over_; })) {
+        std::unique_lock lock(end->mutex);
+        while (!end->wake.wait_for(lock, interval, [&] { return end->asked; })) {
           lock.unlock();
           if (!look()) return;
           lock.lock();
@@ -47,18 +48,24 @@ class WatchThread {
 
   /// Waits for a look() that is running. Not from look().
   void stop() noexcept {
+    if (!thread_.joinable()) return;
     {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
+      const std::lock_guard lock(end_->mutex);
+      end_->asked = true;
     }
-    wake_.notify_one();
-    if (thread_.joinable()) thread_.join();
+    end_->wake.notify_one();
+    thread_.join();
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool over_ = false;
+  /// Shared with the thread: in the child of a fork, which has no such thread, it is never destroyed. The destructor of
+  /// a condition variable would wait there for the thread.
+  struct End {
+    std::mutex mutex;
+    std::condition_variable wake;
+    bool asked = false;
+  };
+  std::shared_ptr<End> end_;
   std::thread thread_;
 };
 

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 #ifdef __linux__
 #include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #endif
 
 #include <atomic>
@@ -187,6 +189,23 @@ TEST_CASE("the thread that watches has real-time priority, where the system gran
   });
   CHECK(WatchedRun::until([&] { return policy != -1; }));
   CHECK(policy == (granted ? SCHED_FIFO : SCHED_OTHER));
+}
+
+TEST_CASE("the child of a fork during a run can destroy the loop, and ends") {
+  auto device = std::make_shared<WatchedDevice>();
+  auto run = std::make_unique<WatchedRun>(device);
+  run->loop.start();
+  CHECK(device->looked_at());
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);  // ends a child that hangs
+    run.reset();
+    _exit(7);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
 }
 #endif
 
