@@ -6,6 +6,8 @@
 // The header needs CHAI3D 3.3 and links with libpunctura (docs/c-abi.md).
 #pragma once
 
+#include <time.h>
+
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -72,7 +74,18 @@ class cPuncturaEffect : public chai3d::cGenericEffect {
   }
 
  private:
+  /// Goes on while the computer sleeps: the force must not go on after it as if nothing had happened.
   static double steady_seconds() {
+#if defined(CLOCK_BOOTTIME) || defined(__APPLE__)
+#ifdef CLOCK_BOOTTIME
+    constexpr clockid_t clock = CLOCK_BOOTTIME;  // std::chrono::steady_clock stands still on Linux and macOS
+#else
+    constexpr clockid_t clock = CLOCK_MONOTONIC;
+#endif
+    timespec now{};
+    if (clock_gettime(clock, &now) == 0)
+      return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+#endif
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
