@@ -118,7 +118,8 @@ class PosedNeedle:
         due = math.floor((time - self._start) * self._rate + _CLOSE) + 1
         ticks = self._start + np.arange(self._ticks, due) / self._rate
         share = (ticks - self._time) / max(time - self._time, 1e-12)
-        poses = self._pose + (pose - self._pose) * share[:, None]
+        last, next_ = _unit(self._pose), _unit(pose)  # otherwise the longer axis would weigh more
+        poses = last + (next_ - last) * share[:, None]
         poses[(time - ticks) * self._rate < _CLOSE] = pose  # with all its bits
         self._make(time, pose, poses)
 
@@ -178,6 +179,12 @@ def _three(name: str, given: ArrayLike) -> Array:
     if np.size(given) != 3 or np.ma.is_masked(given) or np.iscomplexobj(given):
         raise ValueError(f"{name} must be three real numbers, not {given!r}")
     return np.asarray(given, float).reshape(3)
+
+
+def _unit(pose: Array) -> Array:
+    """The pose with an axis of length 1."""
+    axis = pose[3:] / np.abs(pose[3:]).max()
+    return np.concatenate([pose[:3], axis / np.linalg.norm(axis)])
 
 
 def _in_seconds(size: float) -> str:

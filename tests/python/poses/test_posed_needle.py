@@ -30,6 +30,16 @@ def test_slower_poses_move_on_straight_lines():
     assert np.allclose(forces, expected, atol=1e-9)
 
 
+@pytest.mark.parametrize("length", [1e6, 1e-320, 1e308])
+def test_the_length_of_an_axis_has_no_weight_between_two_poses(length):
+    needle, other = PosedNeedle(SCENE), PosedNeedle(SCENE)
+    for k, p in enumerate(positions(51)):
+        axis = np.array([0.0, -1.0, 0.0]) if k % 2 else np.array([1.0, 0.0, 0.0])
+        expected = needle.move(k / 100, p, axis)
+        assert np.allclose(other.move(k / 100, p, axis * (length if k % 2 else 1)), expected, rtol=0, atol=1e-12)
+    assert np.abs(expected).max() > 0.1
+
+
 def test_faster_poses_than_ticks_leave_the_force_between_two_ticks():
     needle = PosedNeedle(SCENE)
     p = positions(3001)
