@@ -150,7 +150,7 @@ class PosedNeedle:
             )
         elif self._lone == 2:  # and no more of these, which could come with each pose
             advice = (
-                f"Their times must be in seconds: {_in_seconds(step)}. If they are, take a larger longest_gap"
+                f"Their times must be in seconds: {_in_seconds(step)}. Otherwise, take a larger longest_gap"
                 if step > 0
                 else "Give them in the order of their times"
             )

@@ -68,7 +68,7 @@ def _units(trace: Trace) -> Iterator[Finding]:
         elif not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
-            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; state the unit (--unit {what}=UNIT)"
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; correct the unit (--unit {what}=UNIT)"
             yield Finding("wrong_unit", text, severe=True)
 
 
