@@ -36,6 +36,7 @@ class Limit:
         self.text = text
         self.missed: Moment | None = None
         self.unseen: Moment | None = None  # when needed readings had been missing for too long
+        self.gone: Moment | None = None  # when a needed hand was that of a page that had been silent for too long
         self.busy: Flags | None = None  # the ticks of the batch in which a measurement is open
         self.waits_for = ""  # the end of an open measurement at the last tick: "pop" or "rest"
         self._seen_at: float | None = None
@@ -46,7 +47,7 @@ class Limit:
 
     def measured(self, until: Moment | None) -> bool:
         """Whether the readings up to `until` are enough to call it met."""
-        return not by(self.unseen, until)
+        return not by(self.unseen, until) and not by(self.gone, until)
 
     def state(self, until: Moment | None, complete: bool) -> str:
         """open, met, missed or not measured, at `until`. complete: nothing more will be measured."""

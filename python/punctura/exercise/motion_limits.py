@@ -8,11 +8,11 @@ import numpy as np
 
 from punctura import Scene
 from punctura.events import Event
-from punctura.exercise.limit import Limit, Moment, by
+from punctura.exercise.limit import Limit, Moment, by, first_of
 from punctura.exercise.schema import EntryAngle, ExerciseFile, MostDepth, MostSpeed, NoPause
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.speed import MeanSpeed
-from punctura.exercise.ticks import LATE_S, ROUNDING, JudgedTicks
+from punctura.exercise.ticks import GONE_S, LATE_S, ROUNDING, JudgedTicks
 
 PAUSE_SPEED = 0.5e-3  # m/s; a slower needle stands still
 PAUSE_MEAN_S, SPEED_MEAN_S = 0.25, 0.1  # over which a speed is measured: longer than a period of tremor, or nearly
@@ -68,7 +68,7 @@ class SpeedJudge(Limit):
 
 
 class PauseJudge(Limit):
-    """Judges the way from the first contact to the arrival. Time in which the page was late is no pause."""
+    """Judges the way from first contact to arrival. A late page is no pause, and for more than 1 s no measurement."""
 
     def __init__(self, goal: NoPause, space: TargetSpace) -> None:
         super().__init__(goal.text or f"Do not stand still for {goal.seconds:g} s on the way to {space.name}")
@@ -83,7 +83,10 @@ class PauseJudge(Limit):
         moved, known = self._speed.add(ticks)
         arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
         self._arrived = bool(arrived[-1])
-        slow = known & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & ~arrived & (ticks.age <= LATE_S)
+        on_the_way = known & ~arrived
+        if self.gone is None:
+            self.gone = first_of(ticks, on_the_way & (ticks.age > GONE_S))
+        slow = on_the_way & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & (ticks.age <= LATE_S)
         step = np.diff(ticks.time, prepend=ticks.time[0] if self._before is None else self._before)
         self._before = float(ticks.time[-1])
         total = self._still + np.cumsum(np.where(slow, step, 0.0))

@@ -27,7 +27,6 @@ class StopJudge(Limit):
         self.membrane, self.within, self.seconds = goal.membrane, goal.within_mm * 1e-3, goal.seconds
         self.met: Moment | None = None  # the end of the first window
         self.index = place_of(scene, goal.membrane)
-        self.gone: Moment | None = None  # when the page that moves the hand had been silent for too long after a pop
         self._until = -np.inf  # the end of the last window, s
         self._popped = False  # since the tip went in
 
@@ -69,7 +68,7 @@ class StopJudge(Limit):
         return flags
 
     def measured(self, until: Moment | None) -> bool:
-        return by(self.met, until) and not by(self.gone, until) and super().measured(until)
+        return by(self.met, until) and super().measured(until)
 
     def state(self, until: Moment | None, complete: bool) -> str:
         state = super().state(until, complete)

@@ -70,10 +70,10 @@ def not_measured(limit: Limit, until: Moment | None, first: str) -> str:
     """The reason why a limit was not measured."""
     if limit.unseen is not None and by(limit.unseen, until):
         return f"Not measured: “{limit.text}”. Readings were missing at {tenths(limit.unseen.time)} s of the run."
+    if by(limit.gone, until):
+        return f"Not measured: “{limit.text}”, because the page was late then, so that nobody moved the needle."
     if isinstance(limit, StopJudge):
-        if limit.gone is not None and by(limit.gone, until):
-            when = "the page was late then, so that nobody moved the needle"
-        elif limit.popped:
+        if limit.popped:
             when = f"the attempt ended within {limit.seconds:g} s after the {limit.membrane} gave way"
         else:
             when = f"the {limit.membrane} never gave way"

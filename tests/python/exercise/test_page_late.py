@@ -42,10 +42,15 @@ def test_a_stall_on_the_way_is_no_pause_of_the_student(write, cuts):
     assert "pauses" in abouts(blamed) and "page" not in " ".join(blamed.reasons)
     asked = stay, goal("no_pause", seconds=1)
     assert not result(write, still, *asked, cuts=cuts).passed
-    made = result(write, late, *asked, cuts=cuts)
+    made = result(write, late, stay, cuts=cuts)
     assert made.passed and "pauses" not in abouts(made)
     assert made.reasons[-1].startswith("The page was late: for 2.8 s it sent nothing")
     assert made.metrics.page_late == pytest.approx(2.8, abs=0.01)
+    unknown = result(write, late, *asked, cuts=cuts)  # nobody knows whether the student would have stood still
+    assert not unknown.passed and unknown.withheld == "not everything was measured"
+    assert "because the page was late then" in " ".join(unknown.reasons)
+    short, _ = stalled(0.8, (0, 5, 0), (0, -3, 0), (0, -7, 0))
+    assert result(write, short, *asked, cuts=cuts).passed
 
 
 @pytest.mark.parametrize("cuts", [7, 100_000])
