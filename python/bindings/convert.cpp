@@ -147,7 +147,11 @@ void check_period(double period, std::vector<Problem>& problems) {
 void raise_if(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   nb::list list;
-  for (const auto& p : problems) list.append(problem(p.path, p.value, p.reason));
+  for (const auto& p : problems)
+    if (p.path.ends_with("name"))
+      list.append(problem(p.path, nb::module_::import_("punctura.errors").attr("MISSING"), p.reason));
+    else
+      list.append(problem(p.path, p.value, p.reason));
   raise(list);
 }
 

@@ -192,6 +192,7 @@ void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fie
 }  // namespace
 
 void bind_scene(nb::module_& m) {
+  m.attr("longest_name") = longest_name;
   auto syringe = nb::class_<SyringeSettings>(m, "SyringeSettings", "The syringe on a scene's needle. docs/syringe.md")
                      .def_ro("syringe", &SyringeSettings::syringe)
                      .def_ro("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger");

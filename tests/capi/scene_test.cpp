@@ -175,6 +175,12 @@ TEST_CASE("C ABI: names are text in UTF-8 without control characters, whichever 
   for (const char* word : {"", "Haut, 2 mm\t(weich)", "\xc3\xa9", "\xe7\x9a\xae", "\xf0\x9f\xa9\xb8"})
     CHECK(punctura_scene_set_word(scene.get(), "name", word) == PUNCTURA_OK);
   CHECK(problems_of(with("name = \"two\"", "name = \"\\u001b[31m\"")).contains("name"));
+
+  std::string longest;
+  for (int i = 0; i < 200; ++i) longest += "\xc3\xa9";
+  CHECK(punctura_scene_set_word(scene.get(), "name", longest.c_str()) == PUNCTURA_OK);
+  CHECK(punctura_scene_set_word(scene.get(), "name", (longest + "x").c_str()) == PUNCTURA_BAD_SCENE);
+  CHECK(std::string(punctura_last_error()) == "name: must have at most 200 characters; it has 201");
 }
 
 TEST_CASE("C ABI: numbers in messages have a point, and all their digits, in every locale") {

@@ -1,7 +1,8 @@
 // The names in a scene. Screens, terminals, logs and XML files show them.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -34,11 +35,20 @@ inline bool is_plain_text(std::string_view text) noexcept {
   return true;
 }
 
-/// Adds a problem if a name is no plain text. Returns true if it is.
+/// Characters. Longer names fill a page, a legend or a table.
+inline constexpr std::size_t longest_name = 200;
+
+/// Adds a problem if a name is no plain text, or too long. Returns true if it is good.
 inline bool check_name(std::string_view name, const std::string& path, std::vector<Problem>& problems) {
-  if (is_plain_text(name)) return true;
-  problems.push_back({path, std::numeric_limits<double>::quiet_NaN(),
-                      "must be text in UTF-8 without control characters (a new line, an escape)"});
+  std::string reason;
+  if (!is_plain_text(name))
+    reason = "must be text in UTF-8 without control characters (a new line, an escape)";
+  else if (const auto size = static_cast<std::size_t>(std::count_if(
+               name.begin(), name.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+           size > longest_name)
+    reason = "must have at most " + std::to_string(longest_name) + " characters; it has " + std::to_string(size);
+  if (reason.empty()) return true;
+  problems.push_back({path, std::numeric_limits<double>::quiet_NaN(), reason});
   return false;
 }
 

@@ -11,8 +11,10 @@ from typing import Annotated, Any
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
+from punctura._core import longest_name
+
 AUTOMATIC = "automatic"
-LONGEST_NAME = 200  # characters; longer names fill a page, a legend or a table
+LONGEST_NAME = longest_name  # characters
 
 
 def _as_decimal(value: object) -> Decimal | None:

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from punctura import Needle, Scene
+from punctura._core import longest_name
 from punctura.files.names import as_text
 from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
@@ -61,7 +62,7 @@ class Identification:
     @property
     def scene(self) -> Scene:
         """The identified membranes as a scene. Its coupling has at least 1 N s/m of damping."""
-        return scene_of(self.parameters, as_text(self.trace.source) or "identified")
+        return scene_of(self.parameters, as_text(self.trace.source)[:longest_name] or "identified")
 
     @property
     def extensions(self) -> tuple[str, ...]:

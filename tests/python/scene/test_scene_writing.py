@@ -54,20 +54,23 @@ def tissues(draw):
     return Tissue(**given)
 
 
+names = st.text(st.characters(exclude_categories=["Cc", "Cs"]), max_size=40)
+
+
 @st.composite
 def scenes(draw):
     membrane = st.builds(Membrane, positive, positive, st.floats(1e-6, 0.5), st.floats(0, 1.0))
     vector = st.tuples(*[st.floats(-1e3, 1e3)] * 3)
     placed = st.builds(
         PlacedMembrane,
-        st.text(max_size=8),
+        names,
         membrane,
         vector,
         vector.filter(any),
         tissue=st.one_of(st.just(Tissue()), tissues()),
     )
     return Scene(
-        draw(st.text(st.characters(exclude_categories=["Cs"]))),
+        draw(names),
         Needle(draw(positive), draw(st.floats(1e-6, 1.0))),
         Coupling(draw(positive), draw(positive)),
         draw(st.lists(placed, min_size=1, max_size=3)),
