@@ -45,9 +45,9 @@ def run_python(path: Path) -> Run:
     said, listeners = io.StringIO(), []
     start = live.ServoLoop.start
 
-    def start_and_listen(loop: live.ServoLoop) -> None:
+    def start_and_listen(loop: live.ServoLoop, duration: float | None = None) -> None:
         listeners.append(loop.listen())
-        start(loop)
+        start(loop, duration)
 
     live.ServoLoop.start = start_and_listen  # type: ignore[method-assign]
     try:

@@ -226,7 +226,7 @@ def test_a_place_that_cannot_be_written_is_named_before_the_computation_and_the_
     ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path / "many"), *given[2:], "--out", same])
     assert ran.exit_code == 1 and "0 of 1 traces identified" in ran.output and "broken.csv: " in ran.output
     ran = CliRunner().invoke(build_app(), ["identify", str(tmp_path), *given[2:], "--out", str(tmp_path / "a.csv")])
-    assert ran.exit_code == 2 and "is a file; the results need a folder" in ran.output
+    assert ran.exit_code == 2 and "is a file, not a folder; name another folder" in ran.output
 
     def full(path, data):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))

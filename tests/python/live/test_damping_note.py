@@ -106,7 +106,7 @@ class Seen(Exception):
 
 def test_run_live_has_it_in_the_summary_from_the_start_on():
     scene, seen = filtered("venipuncture", "line_fit"), []
-    device = FedDevice(scene.servo.rate, real_time=False)
+    device = FedDevice(scene.servo.rate)  # in real time: a hand may hold it
 
     def watch(summary):
         seen.append(list(summary.statements))

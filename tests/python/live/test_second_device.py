@@ -243,5 +243,5 @@ def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     thumb.die()
     pump.turn()
     (fault,) = [message for message in told if message.kind == "fault"]
-    assert fault.fault == "thumb" and "under the thumb has a fault. The device reported a position" in fault.reason
+    assert fault.fault == "thumb" and "under the thumb has a fault. The device reported a number" in fault.reason
     assert "cable" in fault.remedy

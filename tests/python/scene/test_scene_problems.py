@@ -32,7 +32,7 @@ ONE_PROBLEM = {
     ),
     "a point that is not finite": (
         ("[0, -4, 0]", "[0, -4, inf]"),
-        "membrane[1].point_mm = [0, -4, inf]: must be three finite numbers",
+        "membrane[1].point_mm = [0, -4, inf]: must be three finite numbers, m, within 1000 km",
     ),
     "a normal of no length": (
         ("[0, -1, 0]", "[0, 0, 0.0]"),

@@ -4,6 +4,7 @@ import errno
 import threading
 
 import pytest
+from punctura import PuncturaError
 from punctura.exercise import ResultStore
 from punctura.studio.activity import Outcome
 from punctura.studio.loaded import from_name
@@ -29,7 +30,7 @@ class CountTicks:
         return []
 
     def scene_change(self):
-        raise ValueError("the count needs one scene")
+        raise PuncturaError("the count needs one scene")
 
     def stop(self):
         self.calls.append(("stop", threading.current_thread().name))
