@@ -10,7 +10,7 @@ def test_after_a_fault_one_button_leads_out_of_it_and_the_sentence_says_what_is_
     tab(page, "Health")
     page.get_by_role("button", name="Try a fault").click()
     banner = page.locator(".fault")
-    expect(banner).to_contain_text("The device reported a position or a direction that is not")
+    expect(banner).to_contain_text("The device reported a number that is not finite")
     expect(banner).to_contain_text("draw the needle out of the tissue and press “Turn force on”")
     expect(page.locator(".header")).to_contain_text("Fault")
     expect(page.locator(".header").get_by_role("button", name="Turn force")).to_have_count(0)
