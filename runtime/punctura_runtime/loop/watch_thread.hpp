@@ -26,7 +26,7 @@ class WatchThread {
   WatchThread& operator=(const WatchThread&) = delete;
   ~WatchThread() { stop(); }
 
-  /// Throws DeviceError if the system cannot create a thread.
+  /// Returns when the thread is at work: no run begins unwatched. Throws DeviceError if the system cannot create it.
   template <typename Look>
   void start(Look look) {
     stop();
@@ -35,6 +35,8 @@ class WatchThread {
       thread_ = std::thread([end = end_, look] {
         os::make_realtime(priority);
         std::unique_lock lock(end->mutex);
+        end->at_work = true;
+        end->wake.notify_all();
         while (!end->wake.wait_for(lock, interval, [&] { return end->asked; })) {
           lock.unlock();
           if (!look()) return;
@@ -44,6 +46,8 @@ class WatchThread {
     } catch (const std::system_error& error) {
       throw DeviceError(std::string("no thread to watch the device's ticks: ") + error.what());
     }
+    std::unique_lock lock(end_->mutex);
+    end_->wake.wait(lock, [this] { return end_->at_work; });
   }
 
   /// Waits for a look() that is running. Not from look().
@@ -63,7 +67,7 @@ class WatchThread {
   struct End {
     std::mutex mutex;
     std::condition_variable wake;
-    bool asked = false;
+    bool at_work = false, asked = false;
   };
   std::shared_ptr<End> end_;
   std::thread thread_;

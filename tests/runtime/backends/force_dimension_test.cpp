@@ -7,6 +7,7 @@
 #include "core/support/allocations.hpp"
 #include "fakes/drd/rig.hpp"
 #include "punctura/plant/experiment.hpp"
+#include "runtime/support/patient.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -151,7 +152,7 @@ TEST_CASE("a tool direction other than the usual one can be set") {
   options.clock = CrankedClock::clock();
   options.realtime = {0, -1, false, false};
   const auto device = std::make_shared<force_dimension::ForceDimensionDevice>(options);
-  ServoLoop loop(device, paper_scene());
+  ServoLoop loop(device, paper_scene(), patient());
   loop.start();
   CrankedClock::run_to(fake().now() + 10'000'000, *device);
   CHECK(loop.latest().sample.axis == std::array<double, 3>{0, 0, -1});

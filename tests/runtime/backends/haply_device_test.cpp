@@ -7,6 +7,7 @@
 #include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/haply_fake.hpp"
+#include "runtime/support/patient.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -42,7 +43,7 @@ TEST_CASE(
     settings.takes = key;
     HaplyFake fake(settings);
     auto device = std::make_shared<HaplyDevice>(unhurried(fake));
-    ServoLoop loop(device, paper_scene(1e-4));
+    ServoLoop loop(device, paper_scene(1e-4), patient());
     auto& ring = loop.listen(8192);
     fake.begin();
     loop.arm();
@@ -95,7 +96,7 @@ TEST_CASE("after every failure the plant's force is zero at once and stays zero,
     HaplyOptions options = unhurried(fake);
     if (mishap == Mishap::silent) options.stale = 2;  // long enough for a busy computer to reach the mishap
     auto device = std::make_shared<HaplyDevice>(options);
-    ServoLoop loop(device, paper_scene());
+    ServoLoop loop(device, paper_scene(), patient());
     fake.begin();
     fake.happen(mishap, 2000);  // in the tissue, under force
     loop.arm();
@@ -106,7 +107,7 @@ TEST_CASE("after every failure the plant's force is zero at once and stays zero,
     CHECK(loop.latest().force == zero);
     CHECK_MESSAGE(device->trouble().find(words) != std::string::npos, device->trouble());
     const auto ticks = loop.report().ticks;
-    CHECK_THROWS_AS(ServoLoop(device, paper_scene()).start(),
+    CHECK_THROWS_AS(ServoLoop(device, paper_scene(), patient()).start(),
                     DeviceError);  // the first loop's stop would end its ticks
     loop.stop();
     CHECK(loop.report().ticks == ticks);  // one more tick reports the fault; then no tick follows
@@ -126,7 +127,7 @@ TEST_CASE("a missing grip releases its buttons at once, and is reported after 0.
   HaplyFake fake;
   auto device = std::make_shared<HaplyDevice>(unhurried(fake));
   CHECK(device->info().has_orientation);
-  ServoLoop loop(device, paper_scene());
+  ServoLoop loop(device, paper_scene(), patient());
   auto& ring = loop.listen(4096);
   fake.begin();
   fake.happen(Mishap::no_grip, 100);
@@ -148,7 +149,7 @@ TEST_CASE("split, merged and fragmented answers, with pings between, give the sa
     HaplyFake fake;
     fake.travel(how);
     auto device = std::make_shared<HaplyDevice>(unhurried(fake));
-    ServoLoop loop(device, paper_scene());
+    ServoLoop loop(device, paper_scene(), patient());
     fake.begin();
     loop.arm();
     loop.start();

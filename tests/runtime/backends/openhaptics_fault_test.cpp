@@ -5,6 +5,7 @@
 #include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/fake_hd.hpp"
+#include "runtime/support/patient.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -19,7 +20,7 @@ struct InTissue {
     reset_fake_hd([&](fake_hd_settings& s) { s.temperature = temperature; });
     device = std::make_shared<OpenHapticsDevice>(with_fake_hd());
     fake_hd().restart();
-    loop = std::make_unique<ServoLoop>(device, paper_scene());
+    loop = std::make_unique<ServoLoop>(device, paper_scene(), patient());
     loop->arm();
   }
   void go(unsigned long long ticks = 2 * moment) {

@@ -7,6 +7,7 @@
 #include "punctura/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/fake_hd.hpp"
+#include "runtime/support/patient.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -30,7 +31,7 @@ Run run(double rate, bool ideal, unsigned long long seed = 3) {
   auto device = std::make_shared<OpenHapticsDevice>(with_fake_hd(rate));
   REQUIRE(device->info().rate == rate);
   fake_hd().restart();
-  ServoLoop loop(device, paper_scene(1e-4));
+  ServoLoop loop(device, paper_scene(1e-4), patient());
   auto& ring = loop.listen(8192);
   loop.arm();
   loop.start();
@@ -117,7 +118,7 @@ TEST_CASE("on an exact path, the force equals the offline curve within the motio
 
 TEST_CASE("a tick allocates no memory") {
   reset_fake_hd();
-  ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene());
+  ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene(), patient());
   loop.arm();
   loop.start();
   until_tick(1000);

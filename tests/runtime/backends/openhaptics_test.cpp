@@ -12,6 +12,7 @@
 #include "punctura_runtime/os/os.hpp"
 #include "runtime/support/environment.hpp"
 #include "runtime/support/fake_hd.hpp"
+#include "runtime/support/patient.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -199,7 +200,7 @@ TEST_CASE("the axis is minus the third column of the rotation, with length 1 des
       s.axis[1] = -0.8;
       s.buttons = 2;
     });
-    ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene());
+    ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene(), patient());
     loop.start();
     until_tick(fake_hd().ticks() + 20);
     const Snapshot s = loop.latest();
@@ -221,7 +222,7 @@ TEST_CASE("it also runs in real time on the real clock") {
   auto device = std::make_shared<OpenHapticsDevice>(options);
   CHECK(device->info().rate > 300);  // a busy machine makes it slower
   CHECK(device->info().rate < 1100);
-  ServoLoop loop(device, paper_scene());
+  ServoLoop loop(device, paper_scene(), patient());
   loop.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   loop.stop();

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -15,10 +16,10 @@ using namespace punctura::test;
 
 namespace {
 /// A clock that only the test advances, and the settings of a loop that uses it.
-std::int64_t clock_ns = 0;
+std::atomic<std::int64_t> clock_ns{0};
 LoopSettings by_test_clock() {
   LoopSettings settings;
-  settings.now_ns = []() noexcept { return clock_ns; };
+  settings.now_ns = []() noexcept { return clock_ns.load(); };
   return settings;
 }
 

@@ -208,7 +208,7 @@ TEST_CASE("every listener gets every snapshot; a slow listener loses only its ow
 }
 
 TEST_CASE("periods, compute times and late ticks are measured with the given clock") {
-  static std::int64_t now;
+  static thread_local std::int64_t now;  // the thread that watches the loop has one of its own
   now = 1;
   LoopSettings settings;
   settings.now_ns = []() noexcept { return now += 1000; };

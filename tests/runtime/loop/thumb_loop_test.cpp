@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <thread>
@@ -18,7 +19,7 @@ using namespace punctura::test;
 
 namespace {
 
-std::int64_t two_hands_ns = 0;
+std::atomic<std::int64_t> two_hands_ns{0};
 std::int64_t now() noexcept { return two_hands_ns; }
 
 /// Both devices tick in turn, 1600 times a second of the test's own clock. The thumb moves along -y.
