@@ -86,13 +86,6 @@ def _text(value: object) -> str:
     return value
 
 
-def _name(value: object) -> str:
-    text = _text(value)
-    if len(text) > LONGEST_NAME:
-        raise PydanticCustomError("name", f"must have at most {LONGEST_NAME} characters; it has {len(text)}")
-    return text
-
-
 def _plain(value: Any) -> Any:
     if isinstance(value, str):
         return value
@@ -121,4 +114,4 @@ Quaternion = Annotated[tuple[Decimal, Decimal, Decimal, Decimal], PlainValidator
 Buttons = Annotated[list[int], PlainValidator(_buttons)]
 WholeNumber = Annotated[int, PlainValidator(_whole_number), WithJsonSchema({"type": "integer"})]
 Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": "string"})]
-Name = Annotated[str, PlainValidator(_name), WithJsonSchema({"type": "string", "maxLength": LONGEST_NAME})]
+Name = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": "string", "maxLength": LONGEST_NAME})]
