@@ -1,4 +1,4 @@
-"""The addresses under /api for recordings, exercises and results. docs/studio.md has the table.
+"""The addresses under /api for recordings, exercises and results. docs/studio-server.md has the table.
 
 Each request runs in a thread of the server's pool, so that a long file blocks neither a page nor the worker.
 """

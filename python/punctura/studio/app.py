@@ -1,4 +1,4 @@
-"""The studio's addresses; docs/studio.md describes them."""
+"""The studio's addresses; docs/studio-server.md describes them."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from punctura.studio import limits, protocols
 from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.limits import CLOSE_S, FILES_KEPT, FILES_WANTED, IDLE_S, STRANGER_S, UNREAD_S
 
-DOCS = Path(__file__).parents[3] / "docs" / "studio.md"
+DOCS = Path(__file__).parents[3] / "docs" / "studio-server.md"
 
 
 class Transport:
