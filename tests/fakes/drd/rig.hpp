@@ -113,7 +113,7 @@ class FakeRig {
  public:
   explicit FakeRig(const fake_drd::Settings& settings = upright(), double rate = 1600, Scene scene = paper_scene(),
                    LoopSettings limits = {}, std::size_t listen = 0)
-      : made_(prepared(settings)), device(open(rate)), loop(device, std::move(scene), limits) {
+      : made_(prepared(settings)), device(open(rate)), loop(device, std::move(scene), without_silence(limits)) {
     if (listen > 0) ring = &loop.listen(listen);
   }
   ~FakeRig() { stop(); }
@@ -136,6 +136,11 @@ class FakeRig {
   std::int64_t time() const { return time_; }
 
  private:
+  /// The loop's own clock stands still: between two calls of run() the ticks wait for the test, and that is no silence.
+  static LoopSettings without_silence(LoopSettings limits) {
+    limits.now_ns = []() noexcept -> std::int64_t { return 1; };
+    return limits;
+  }
   static bool prepared(const fake_drd::Settings& settings) {
     fake().reset(&settings);
     fake().virtual_time(1);
