@@ -12,33 +12,12 @@
 
 namespace punctura::c {
 
-Scene empty_scene() {
-  Scene scene;
-  scene.needle = {not_given, not_given};
-  scene.coupling = {not_given, not_given};
-  return scene;
-}
-
-PlacedMembrane empty_membrane() {
-  PlacedMembrane placed;
-  placed.membrane = {not_given, not_given, not_given, not_given};
-  placed.point = placed.inward_normal = {not_given, not_given, not_given};
-  return placed;
-}
-
-SyringeSettings empty_syringe() {
-  SyringeSettings settings;
-  for (const auto& field : syringe_fields) settings.syringe.*field.member = not_given;
-  settings.syringe.air = 0;
-  return settings;
-}
-
 namespace {
 
-template <typename Enum, std::size_t n>
-bool take(Enum& to, const std::string& path, std::string_view word, const std::array<std::string_view, n>& words,
-          std::vector<Problem>& problems) {
-  if (const auto found = enum_of<Enum>(word, words)) {
+template <typename Enum>
+bool take(Enum& to, const std::string& path, std::string_view word, std::vector<Problem>& problems) {
+  constexpr auto& words = words_of<Enum>;
+  if (const auto found = enum_of<Enum>(word)) {
     to = *found;
     return true;
   }
@@ -46,22 +25,6 @@ bool take(Enum& to, const std::string& path, std::string_view word, const std::a
   for (const auto known : words) reason += (known == words.front() ? " \"" : ", \"") + std::string(known) + "\"";
   problems.push_back({path, not_given, reason});
   return false;
-}
-
-// In the order of the enumerators
-constexpr std::array<std::string_view, 2> direction_words = {"stylus", "motion"};
-constexpr std::array<std::string_view, 2> solver_words = {"paper", "exact"};
-constexpr std::array<std::string_view, 2> conditioning_words = {"low_pass", "line_fit"};
-
-/// The membrane of a path "membrane[i].rest", and the rest.
-PlacedMembrane* membrane_of(Scene& scene, std::string_view path, std::string_view& rest) {
-  for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
-    const std::string head = "membrane[" + std::to_string(i) + "].";
-    if (path.substr(0, head.size()) != head) continue;
-    rest = path.substr(head.size());
-    return &scene.membranes[i];
-  }
-  return nullptr;
 }
 
 /// The number at a path; nullptr if there is none.
@@ -83,38 +46,34 @@ punctura_status no_path(const char* path) {
 
 bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems) {
   if (!check_name(word, path, problems)) return false;
-  if (path == "name") return scene.name = word, true;
-  if (path == "needle.direction") return take(scene.direction, path, word, direction_words, problems);
-  if (path == "servo.solver") return take(scene.servo.solver, path, word, solver_words, problems);
-  if (path == "servo.conditioning") return take(scene.servo.conditioning, path, word, conditioning_words, problems);
   if (path == "display.force_scale" && word == "automatic") return scene.display.automatic = true;
-  std::string_view rest;
-  if (PlacedMembrane* membrane = membrane_of(scene, path, rest)) {
-    if (rest == "name") return membrane->name = word, true;
-    if (rest == "look") return take(membrane->look, path, word, look_words, problems);
-    if (rest == "behind") return take(membrane->behind, path, word, behind_words, problems);
-    if (rest == "grip") return take(membrane->tissue.grip, path, word, punctura::grip_words, problems);
-  }
-  problems.push_back({path, not_given, "there is no such word in the scene"});
-  return false;
+  bool found = false;
+  const std::size_t before = problems.size();
+  visit_scene(scene, [&](const std::string& name, const Field&, auto& value) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if (name != path) return;
+    if constexpr (std::is_enum_v<Value>)
+      found = true, take(value, path, word, problems);
+    else if constexpr (std::is_same_v<Value, std::string>)
+      found = true, value = word;
+  });
+  if (!found) problems.push_back({path, not_given, "there is no such word in the scene"});
+  return problems.size() == before;
 }
 
 bool make_rows(Scene& scene, const std::string& list, std::size_t count) {
-  const auto grow = [&](auto& rows, const auto& row) {
-    if (rows.size() < count) rows.resize(count, row);
-    return true;
-  };
-  if (list == "coupling.relaxation") return grow(scene.relaxation, MaxwellBranch{not_given, not_given});
-  std::string_view rest;
-  PlacedMembrane* membrane = membrane_of(scene, list, rest);
-  if (membrane && rest == "grip_table") return grow(membrane->tissue.grip_table, GripPoint{not_given, not_given});
-  if (membrane && rest == "profile") return grow(membrane->tissue.profile, Knot{not_given, not_given, not_given});
-  return false;
+  bool found = false;
+  visit_scene(scene, [&](const std::string& name, const Field&, auto& value) {
+    if constexpr (punctura::detail::is_list<std::remove_reference_t<decltype(value)>>)
+      if (name == list) found = true, value.resize(std::max(value.size(), count));
+  });
+  return found;
 }
 
 }  // namespace punctura::c
 
 using namespace punctura::c;
+using punctura::not_given;
 using punctura::Scene;
 
 punctura_status punctura_setup_init(punctura_setup* setup, size_t size) {
@@ -132,7 +91,7 @@ punctura_status punctura_scene_new(const punctura_setup* setup, punctura_scene**
     if (!setup || !scene) return null_pointer();
     if (!known_size(setup))
       return fail(PUNCTURA_BAD_ARGUMENT, "setup.struct_size is wrong: call punctura_setup_init()");
-    auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
+    auto made = std::make_unique<punctura_scene>(punctura_scene{});
     made->scene.name = setup->name ? setup->name : "";
     made->scene.needle = {setup->diameter, setup->tip_angle};
     made->scene.coupling = {setup->stiffness, setup->damping};
@@ -161,7 +120,7 @@ punctura_status punctura_scene_add_membrane(punctura_scene* scene, const punctur
 punctura_status punctura_scene_add_syringe(punctura_scene* scene) {
   return guarded([&] {
     if (!scene) return null_pointer();
-    scene->scene.syringe = empty_syringe();
+    scene->scene.syringe.emplace();
     return ok;
   });
 }

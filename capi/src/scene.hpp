@@ -1,7 +1,6 @@
 // A scene behind the C ABI.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,19 +15,12 @@ struct punctura_scene {
 
 namespace punctura::c {
 
-inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
-
 /// More rows than any list of a scene may have. The check of the scene has the limit of each list.
 inline constexpr std::size_t longest_list = 1000;
 
 /// The types that build() and build_insertion() make.
 using SceneInsertion = BasicInsertion<double>;
 using SceneServo = BasicServoStep<double>;
-
-/// A scene whose numbers without default are NaN.
-Scene empty_scene();
-PlacedMembrane empty_membrane();
-SyringeSettings empty_syringe();
 
 /// Sets a word of the scene. Adds a problem if there is no such path or word. Returns whether there was none.
 bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems);

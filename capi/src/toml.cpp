@@ -147,8 +147,8 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
   const toml::array* membranes = file.get("membrane") ? file.get("membrane")->as_array() : nullptr;
   if (membranes && membranes->size() > max_membranes)
     return problems.push_back({"membrane", static_cast<double>(membranes->size()), too_many_membranes});
-  for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.push_back(empty_membrane());
-  scene.syringe = empty_syringe();  // so that for_each_value() visits all numbers
+  for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.emplace_back();
+  scene.syringe.emplace();  // so that for_each_value() visits all numbers
   Reader reader(text, scene, problems);
   toml::table rest = file;
   rest.erase("membrane");
@@ -193,7 +193,7 @@ punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura
       const std::string path = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
       return fail({{path, not_given, "this is not TOML: " + std::string(file.error().description())}});
     }
-    auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
+    auto made = std::make_unique<punctura_scene>(punctura_scene{});
     std::vector<punctura::Problem> problems;
     read_file(lines, file.table(), made->scene, problems);
     if (!problems.empty()) return fail(std::move(problems));

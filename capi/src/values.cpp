@@ -23,8 +23,8 @@ std::optional<std::size_t> index_after(std::string_view path, std::string_view n
 /// Makes the membrane, the syringe or the row of a list that a path is in.
 void grow(Scene& scene, std::string_view path) {
   if (const auto i = index_after(path, "membrane", max_membranes))
-    while (scene.membranes.size() <= *i) scene.membranes.push_back(empty_membrane());
-  if (path.substr(0, 8) == "syringe." && !scene.syringe) scene.syringe = empty_syringe();
+    while (scene.membranes.size() <= *i) scene.membranes.emplace_back();
+  if (path.substr(0, 8) == "syringe." && !scene.syringe) scene.syringe.emplace();
   if (const auto close = path.rfind("]."); close != std::string_view::npos) {
     const std::string_view list = path.substr(0, path.rfind('[', close));
     if (const auto row = index_after(path, list, longest_list)) make_rows(scene, std::string(list), *row + 1);
@@ -81,7 +81,7 @@ using namespace punctura::c;
 punctura_status punctura_scene_from_values(const char* text, size_t size, punctura_scene** scene) {
   return guarded([&] {
     if (!text || !scene) return null_pointer();
-    auto made = std::make_unique<punctura_scene>(punctura_scene{empty_scene()});
+    auto made = std::make_unique<punctura_scene>(punctura_scene{});
     std::vector<punctura::Problem> problems;
     read_lines(std::string_view(text, size), made->scene, problems);
     if (problems.empty()) problems = check(made->scene);

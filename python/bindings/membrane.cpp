@@ -17,27 +17,28 @@ using Row = std::array<double, 3>;    // depth, m; lower, upper, N
 nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
 
 /// The type hint of a word out of a list.
-template <std::size_t n>
-std::string literal(const std::array<std::string_view, n>& words) {
+template <typename Enum>
+std::string literal() {
   std::string text;
-  for (const auto word : words) text += (text.empty() ? "typing.Literal['" : ", '") + std::string(word) + "'";
+  for (const auto word : words_of<Enum>) text += (text.empty() ? "typing.Literal['" : ", '") + std::string(word) + "'";
   return text + "]";
 }
-const std::string look_type = literal(look_words), behind_type = literal(behind_words), grip_type = literal(grip_words);
+const std::string look_type = literal<Look>(), behind_type = literal<Behind>(), grip_type = literal<GripShape>();
 
 /// The enumerator of a word. Throws ConfigurationError that lists the words.
-template <typename Enum, std::size_t n>
-Enum from_word(const std::string& path, const std::string& given, const std::array<std::string_view, n>& words) {
-  if (const auto found = enum_of<Enum>(given, words)) return *found;
+template <typename Enum>
+Enum from_word(const std::string& path, const std::string& given) {
+  if (const auto found = enum_of<Enum>(given)) return *found;
   std::string reason = "must be one of";
-  for (const auto word : words) reason += (word == words.front() ? " \"" : ", \"") + std::string(word) + "\"";
+  for (const auto word : words_of<Enum>)
+    reason += (word == words_of<Enum>.front() ? " \"" : ", \"") + std::string(word) + "\"";
   raise_word(path, given, reason.c_str());
 }
 
 Tissue unchecked_tissue(std::string grip, double growth, std::vector<Point> grip_table, double tip_length,
                         double tail_length, double tail_floor, double cutting, double set, std::vector<Row> profile) {
   Tissue made;
-  made.grip = from_word<GripShape>("tissue.grip", grip, grip_words);
+  made.grip = from_word<GripShape>("tissue.grip", grip);
   made.growth = growth;
   for (const auto& [opening, force] : grip_table) made.grip_table.push_back({opening, force});
   made.tip_length = tip_length;
@@ -76,8 +77,8 @@ PlacedMembrane unchecked_placed(std::string name, Membrane membrane, Triple poin
           membrane,
           point,
           inward_normal,
-          from_word<Behind>("membrane.behind", behind, behind_words),
-          from_word<Look>("membrane.look", look, look_words),
+          from_word<Behind>("membrane.behind", behind),
+          from_word<Look>("membrane.look", look),
           outflow,
           outflow_behind,
           std::move(tissue)};
@@ -103,7 +104,7 @@ void bind_membrane(nb::module_& m) {
                       nb::arg("set"), nb::arg("profile"),
                       "Creates the additions without checks of the numbers. The scene that uses them checks all.")
           .def_prop_ro(
-              "grip", [](const Tissue& t) { return text(grip_words[static_cast<std::size_t>(t.grip)]); },
+              "grip", [](const Tissue& t) { return text(word_of(t.grip)); },
               nb::sig(("def grip(self) -> " + grip_type).c_str()), "How the grip grows with the opening of the hole")
           .def_ro("growth", &Tissue::growth, "Of an exponential grip, 1/m; 0 is linear")
           .def_prop_ro(

@@ -173,8 +173,8 @@ void bind_scene_field(nb::module_& m) {
   def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
 }
 
-template <typename Owner, std::size_t n>
-void describe_fields(nb::list& out, const char* path, const FieldOf<Owner> (&fields)[n], const char* prefix = "") {
+template <typename Fields>
+void describe_fields(nb::list& out, const char* path, const Fields& fields, const char* prefix = "") {
   for (const Field& field : fields) {
     nb::dict d;
     d["path"] = std::string(path) + "." + prefix + std::string(field.name);

@@ -1,14 +1,17 @@
 // One proxy for each membrane behind one conditioning of the position. K06 Fig. 8
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "punctura/insertion/match_by_place.hpp"
 #include "punctura/model/storage.hpp"
+#include "punctura/model/words.hpp"
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/signal/conditioning.hpp"
 #include "punctura/signal/entry_direction.hpp"
@@ -20,6 +23,8 @@ enum class Direction : std::uint8_t {
   stylus,  ///< the measured orientation of the device
   motion,  ///< the direction of the tip's motion (EntryDirection), for devices without orientation
 };
+template <>
+inline constexpr std::array<std::string_view, 2> words_of<Direction>{"stylus", "motion"};
 
 /// What all models of an insertion share: it conditions the position, steps one proxy for each membrane and adds their
 /// forces in the order of the membranes. A derived class fills `proxies_` in its constructor and then calls reset().

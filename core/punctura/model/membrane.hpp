@@ -1,15 +1,17 @@
 // The membrane of K06 section 2.
 #pragma once
 
+#include "punctura/model/field.hpp"
+
 namespace punctura {
 
 /// A membrane: a stack of springs that grip the needle with dry friction. K06 section 2
 template <typename Scalar>
 struct BasicMembrane {
-  Scalar stiffness;       ///< kappa, N/m
-  Scalar precompression;  ///< c, N
-  Scalar friction;        ///< mu, -
-  Scalar thickness;       ///< H, m; 0 gives the thin law
+  Scalar stiffness = Scalar(not_given);       ///< kappa, N/m
+  Scalar precompression = Scalar(not_given);  ///< c, N
+  Scalar friction = Scalar(not_given);        ///< mu, -
+  Scalar thickness = Scalar(not_given);       ///< H, m; 0 gives the thin law
 };
 
 using Membrane = BasicMembrane<double>;

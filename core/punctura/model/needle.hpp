@@ -1,6 +1,7 @@
 // The needle of K06 section 2.
 #pragma once
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/lane.hpp"
 
 namespace punctura {
@@ -8,8 +9,8 @@ namespace punctura {
 /// A needle: a tip with one slanted face, and a shaft behind it (K06 Fig. 1).
 template <typename Scalar>
 struct BasicNeedle {
-  Scalar diameter;   ///< w, m
-  Scalar tip_angle;  ///< theta, rad
+  Scalar diameter = Scalar(not_given);   ///< w, m
+  Scalar tip_angle = Scalar(not_given);  ///< theta, rad
 };
 
 using Needle = BasicNeedle<double>;

@@ -18,11 +18,34 @@ inline constexpr std::size_t max_knots = 32;
 /// One knot of a profile.
 template <typename Scalar>
 struct BasicKnot {
-  Scalar depth;  ///< m, along the needle
-  Scalar lower;  ///< phi_I there, N, 0 or less
-  Scalar upper;  ///< phi_O there, N
+  Scalar depth = Scalar(not_given);  ///< m, along the needle
+  Scalar lower = Scalar(not_given);  ///< phi_I there, N, 0 or less
+  Scalar upper = Scalar(not_given);  ///< phi_O there, N
 };
 using Knot = BasicKnot<double>;
+
+inline constexpr FieldOf<Knot> knot_fields[] = {
+    {{"depth",
+      "q",
+      "m",
+      {0, 1e6},
+      "A measured profile of an infinitely thin wall, in place of grip and tail: depths of its knots.",
+      in_unit("mm"),
+      "Profile, depths"},
+     &Knot::depth},
+    {{"lower",
+      "phi_I",
+      "N",
+      {-1e6, 0},
+      "The force on the way in at each knot, 0 or less.",
+      in_unit("N"),
+      "Profile, lower"},
+     &Knot::lower},
+    {{"upper", "phi_O", "N", {-1e6, 1e6}, "The force on the way out at each knot.", in_unit("N"), "Profile, upper"},
+     &Knot::upper},
+};
+template <>
+inline constexpr const auto& columns_of<Knot> = knot_fields;
 
 /// phi_I and phi_O of a thin wall, N: straight lines between knots in ascending order.
 ///

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "punctura/model/profile.hpp"
 #include "punctura/model/validity.hpp"
+#include "punctura/model/words.hpp"
 
 namespace punctura {
 
@@ -21,16 +23,25 @@ enum class GripShape : std::uint8_t {
   table,        ///< straight lines between the points of grip_table, constant outside them
 };
 
-/// The words of scene files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 3> grip_words = {"linear", "exponential", "table"};
+template <>
+inline constexpr std::array<std::string_view, 3> words_of<GripShape>{"linear", "exponential", "table"};
 
 /// One point of a measured grip.
 template <typename Scalar>
 struct BasicGripPoint {
-  Scalar opening;  ///< y, m
-  Scalar grip;     ///< G, N
+  Scalar opening = Scalar(not_given);  ///< y, m
+  Scalar grip = Scalar(not_given);     ///< G, N
 };
 using GripPoint = BasicGripPoint<double>;
+
+inline constexpr FieldOf<GripPoint> grip_point_fields[] = {
+    {{"opening", "y", "m", {0, 1}, "Openings of the hole, ascending.", in_unit("mm"), "Grip table, openings"},
+     &GripPoint::opening},
+    {{"grip", "G", "N", {0, 1e6}, "The grip at each opening.", in_unit("N"), "Grip table, forces", "force"},
+     &GripPoint::grip},
+};
+template <>
+inline constexpr const auto& columns_of<GripPoint> = grip_point_fields;
 
 /// What a membrane of measured tissue has beside the four numbers of K06. Tissue{} is K06's membrane.
 ///
@@ -68,14 +79,62 @@ bool is_k06(const BasicTissue<Scalar>& t) noexcept {
   return has_k06_grip(t) && !remembers(t);
 }
 
-inline constexpr FieldOf<Tissue> tissue_fields[] = {
-    {{"growth", "b", "1/m", {-no_bound, no_bound, true, true, "must be a finite number"}}, &Tissue::growth},
-    {{"tip_length", "X", "m", {0, no_bound, false, true, "must be 0 (w / tan theta) or more"}}, &Tissue::tip_length},
-    {{"tail_length", "", "m", {0, no_bound, false, true, "must be 0 or more"}}, &Tissue::tail_length},
-    {{"tail_floor", "", "-", {0, 1, false, false, "must be from 0 to 1"}}, &Tissue::tail_floor},
-    {{"cutting", "C", "N", {0, no_bound, false, true, "must be 0 or more: cutting takes work"}}, &Tissue::cutting},
-    {{"set", "", "-", {0, 1, false, false, "must be from 0 to 1"}}, &Tissue::set},
+/// In the order of the struct, of files and of forms.
+inline constexpr std::tuple tissue_rows{
+    FieldOf<Tissue, GripShape>{{"grip",
+                                "",
+                                "",
+                                {},
+                                "How the wall's grip on the needle grows with the opening of the hole: linear is K06, "
+                                "exponential grows faster, table is measured."},
+                               &Tissue::grip},
+    FieldOf<Tissue>{{"growth", "b", "1/m", {}, "Of an exponential grip; 0 is linear.", in_unit("per_mm")},
+                    &Tissue::growth},
+    FieldOf<Tissue, std::vector<GripPoint>>{
+        {"grip_table", "G", "", {}, "Of a measured grip: openings (m) and grips (N).", {}, {}, "grip"},
+        &Tissue::grip_table},
+    FieldOf<Tissue>{{"tip_length",
+                     "X",
+                     "m",
+                     {0, no_bound, false, true, "must be 0 (w / tan theta) or more"},
+                     "Length of the tip along the needle; 0 is diameter / tan(tip angle).",
+                     in_unit("mm")},
+                    &Tissue::tip_length},
+    FieldOf<Tissue>{{"tail_length",
+                     "",
+                     "m",
+                     {0, no_bound, false, true, "must be 0 or more"},
+                     "The shaft's friction falls on this length behind the tip.",
+                     in_unit("mm")},
+                    &Tissue::tail_length},
+    FieldOf<Tissue>{{"tail_floor",
+                     "",
+                     "-",
+                     {0, 1, false, false, "must be from 0 to 1"},
+                     "The part of the shaft's friction that is left behind the tail; 1 is no tail."},
+                    &Tissue::tail_floor},
+    FieldOf<Tissue>{{"cutting",
+                     "C",
+                     "N",
+                     {0, no_bound, false, true, "must be 0 or more: cutting takes work"},
+                     "Force on the tip while it cuts the wall for the first time; none on a later pass.",
+                     in_unit("N")},
+                    &Tissue::cutting},
+    FieldOf<Tissue>{{"set",
+                     "",
+                     "-",
+                     {0, 1, false, false, "must be from 0 to 1"},
+                     "The part of the grip that a hole has lost once the needle has left it."},
+                    &Tissue::set},
+    FieldOf<Tissue, std::vector<Knot>>{
+        {"profile",
+         "",
+         "",
+         {},
+         "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)."},
+        &Tissue::profile},
 };
+inline constexpr auto tissue_fields = numbers_of(tissue_rows);
 
 /// The largest number of points of a measured grip: the profile also needs the surface, both sides of
 /// the tip's end, and the end of the tail.

@@ -2,15 +2,12 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "punctura/model/decimal.hpp"
+#include "punctura/model/field.hpp"
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/needle.hpp"
 
@@ -28,55 +25,51 @@ inline std::string line_of(const Problem& p) {
   return p.path + (std::isnan(p.value) ? "" : " = " + decimal_text(p.value)) + ": " + p.reason;
 }
 
-/// The permitted range of one field, SI. Schemas and documents read their bounds from here.
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  bool min_open = false, max_open = false;
-  const char* reason = "must be a finite number";
-
-  bool holds(double v) const noexcept {
-    return std::isfinite(v) && (min_open ? v > min : v >= min) && (max_open ? v < max : v <= max);
-  }
-};
-
-/// A quantity: its name, its symbol in K06, its unit and its range.
-struct Field {
-  std::string_view name, symbol, unit;
-  Range range;
-};
-
-/// A field of a struct: the quantity, and a pointer to the member.
-template <typename Owner>
-struct FieldOf : Field {
-  double Owner::* member;
-};
-
-inline constexpr double no_bound = std::numeric_limits<double>::infinity();
-
 inline constexpr FieldOf<Needle> needle_fields[] = {
-    {{"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"}}, &Needle::diameter},
+    {{"diameter",
+      "w",
+      "m",
+      {0, no_bound, true, true, "must be greater than 0"},
+      "Outer diameter of the shaft.",
+      in_unit("mm")},
+     &Needle::diameter},
     {{"tip_angle",
       "theta",
       "rad",
-      {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"}},
+      {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"},
+      "Angle between the slanted face and the axis.",
+      in_unit("rad")},
      &Needle::tip_angle},
 };
 
 inline constexpr FieldOf<Membrane> membrane_fields[] = {
-    {{"stiffness", "kappa", "N/m", {0, no_bound, true, true, "must be greater than 0, K06 (15)"}},
+    {{"stiffness",
+      "kappa",
+      "N/m",
+      {0, no_bound, true, true, "must be greater than 0, K06 (15)"},
+      "Resistance of the hole to widening.",
+      in_unit("N_per_mm")},
      &Membrane::stiffness},
     {{"precompression",
       "c",
       "N",
-      {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"}},
+      {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"},
+      "Grip of the hole when it is closed.",
+      in_unit("N")},
      &Membrane::precompression},
     {{"friction",
       "mu",
       "-",
-      {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"}},
+      {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"},
+      "Coefficient of dry friction between needle and membrane."},
      &Membrane::friction},
-    {{"thickness", "H", "m", {0, no_bound, false, true, "must be 0 (the thin law) or more"}}, &Membrane::thickness},
+    {{"thickness",
+      "H",
+      "m",
+      {0, no_bound, false, true, "must be 0 (the thin law) or more"},
+      "0 is an infinitely thin membrane.",
+      in_unit("mm")},
+     &Membrane::thickness},
 };
 
 /// The angle between the needle and the membrane's inward normal. K06 Fig. 4.
@@ -96,20 +89,11 @@ inline bool check_field(const Field& field, double v, const std::string& path, s
 }
 
 /// Adds a problem for each field of `owner` that is outside its range. Returns true if there is no such field.
-template <typename Owner, std::size_t n>
-bool check_fields(const FieldOf<Owner> (&fields)[n], const Owner& owner, const std::string& path,
-                  std::vector<Problem>& problems) {
+template <typename Fields, typename Owner>
+bool check_fields(const Fields& fields, const Owner& owner, const std::string& path, std::vector<Problem>& problems) {
   bool good = true;
   for (const auto& field : fields) good &= check_field(field, owner.*field.member, path, problems);
   return good;
-}
-
-/// The field of a member. A member that is not in the table does not compile.
-template <typename Owner, std::size_t n>
-consteval const FieldOf<Owner>& field_of(const FieldOf<Owner> (&fields)[n], double Owner::* member) {
-  for (const auto& field : fields)
-    if (field.member == member) return field;
-  std::abort();
 }
 
 inline bool check(const Needle& needle, const std::string& path, std::vector<Problem>& problems) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/vector3.hpp"
 
 namespace punctura {
@@ -13,8 +14,8 @@ namespace punctura {
 /// A spring and a damper between device and proxy: f = K e + B (e - e_prev) / T, N. K06 (21).
 template <typename Scalar>
 struct BasicCoupling {
-  Scalar stiffness;  ///< K, N/m
-  Scalar damping;    ///< B, N s/m
+  Scalar stiffness = Scalar(not_given);  ///< K, N/m
+  Scalar damping = Scalar(not_given);    ///< B, N s/m
 };
 
 using Coupling = BasicCoupling<double>;

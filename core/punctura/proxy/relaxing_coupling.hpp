@@ -14,8 +14,8 @@ namespace punctura {
 /// A Maxwell branch: a spring in series with a damper. While the needle rests, its force decays by exp(-t / tau).
 template <typename Scalar>
 struct BasicMaxwellBranch {
-  Scalar stiffness;      ///< K_m, N/m: of the spring. 0 removes the branch
-  Scalar time_constant;  ///< tau, s: damping over stiffness
+  Scalar stiffness = Scalar(not_given);      ///< K_m, N/m: of the spring. 0 removes the branch
+  Scalar time_constant = Scalar(not_given);  ///< tau, s: damping over stiffness
 
   bool operator==(const BasicMaxwellBranch&) const = default;
 };

@@ -1,9 +1,12 @@
 // The two solvers of K06 (21)-(23), and the phases of a needle in a membrane.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "punctura/model/lane.hpp"
+#include "punctura/model/words.hpp"
 
 namespace punctura {
 
@@ -12,6 +15,8 @@ enum class Solver : std::uint8_t {
   paper,  ///< K06 (33): q* approximates q (31), and the band is taken at q*
   exact,  ///< the true solution of (21)-(23)
 };
+template <>
+inline constexpr std::array<std::string_view, 2> words_of<Solver>{"paper", "exact"};
 
 /// The phase of a needle in one membrane.
 enum class Phase : std::uint8_t {

@@ -10,70 +10,13 @@
 #include "punctura/model/validity.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
+#include "punctura/scene/fields.hpp"
 #include "punctura/scene/lumen.hpp"
 #include "punctura/scene/name.hpp"
 #include "punctura/scene/scene.hpp"
 #include "punctura/servo/snapshot.hpp"
 
 namespace punctura {
-
-inline constexpr FieldOf<Coupling> coupling_fields[] = {
-    {{"stiffness",
-      "K",
-      "N/m",
-      {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"}},
-     &Coupling::stiffness},
-    {{"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"}}, &Coupling::damping},
-};
-
-inline constexpr FieldOf<MaxwellBranch> branch_fields[] = {
-    {{"stiffness", "K_m", "N/m", {0, no_bound, false, true, "must be 0 (no branch) or more"}},
-     &MaxwellBranch::stiffness},
-    {{"time_constant",
-      "tau",
-      "s",
-      {1e-4, 1e4, false, false, "must be from 0.0001 s, less than a tick, to 10000 s, longer than a run"}},
-     &MaxwellBranch::time_constant},
-};
-
-inline constexpr FieldOf<ServoSettings> servo_fields[] = {
-    {{"rate",
-      "1/T",
-      "Hz",
-      {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"}},
-     &ServoSettings::rate},
-    {{"low_pass", "-", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"}}, &ServoSettings::low_pass},
-    {{"encoder_step",
-      "-",
-      "m",
-      {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"}},
-     &ServoSettings::encoder_step},
-    {{"sub_steps", "-", "-", {1, 16, false, false, "must be a whole number from 1 to 16"}}, &ServoSettings::sub_steps},
-};
-
-inline constexpr FieldOf<DisplaySettings> display_fields[] = {
-    {{"force_scale",
-      "-",
-      "-",
-      {0, 1, true, false, "must be greater than 0 and at most 1: a device must not give more than the model's force"}},
-     &DisplaySettings::force_scale},
-};
-
-inline constexpr FieldOf<Coupling> thumb_fields[] = {
-    {{"thumb_stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the plunger hangs on it"}},
-     &Coupling::stiffness},
-    {{"thumb_damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more"}}, &Coupling::damping},
-};
-
-/// What liquid from the needle meets: in a membrane, and in the space behind it.
-inline constexpr FieldOf<Outlet> outflow_fields[] = {
-    {{"outflow_resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
-    {{"outflow_pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
-};
-inline constexpr FieldOf<Outlet> outflow_behind_fields[] = {
-    {{"behind_resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
-    {{"behind_pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
-};
 
 inline constexpr FieldOf<GateLimits> gate_fields[] = {
     {{"max_speed", "-", "m/s", {0, no_bound, true, true, "must be greater than 0"}}, &GateLimits::max_speed},

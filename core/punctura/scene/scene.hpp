@@ -26,19 +26,19 @@ inline constexpr Outlet dense_tissue{1e15, 0};
 /// A membrane with its place in the scene.
 struct PlacedMembrane {
   std::string name;
-  Membrane membrane{};                    ///< no default: check() reports missing values
-  std::array<double, 3> point{};          ///< any point of the surface, m
-  std::array<double, 3> inward_normal{};  ///< a direction of any length except 0
-  Behind behind = Behind::tissue;         ///< for the picture and for lumen(); no force depends on it
-  Look look = Look::plain;                ///< for the picture
-  Outlet outflow = dense_tissue;          ///< what liquid from the needle meets in the membrane
-  Outlet outflow_behind = dense_tissue;   ///< the same for the space behind it
-  Tissue tissue{};                        ///< what measured tissue adds to the membrane
+  Membrane membrane{};
+  std::array<double, 3> point{not_given, not_given, not_given};          ///< any point of the surface, m
+  std::array<double, 3> inward_normal{not_given, not_given, not_given};  ///< a direction of any length except 0
+  Behind behind = Behind::tissue;        ///< for the picture and for lumen(); no force depends on it
+  Look look = Look::plain;               ///< for the picture
+  Outlet outflow = dense_tissue;         ///< what liquid from the needle meets in the membrane
+  Outlet outflow_behind = dense_tissue;  ///< the same for the space behind it
+  Tissue tissue{};                       ///< what measured tissue adds to the membrane
 };
 
 /// The syringe on the needle, and the virtual coupling between thumb and plunger.
 struct SyringeSettings {
-  Syringe syringe{};  ///< no default: check() reports missing values
+  Syringe syringe{};
   Coupling thumb{2000, 2};
 };
 
@@ -58,11 +58,12 @@ struct DisplaySettings {
   bool automatic = false;  ///< replaces force_scale by automatic_force_scale(), for the limits in use
 };
 
-/// The description of a run: needle, coupling, membranes and settings, in SI units.
+/// The description of a run: needle, coupling, membranes and settings, in SI units. Its numbers without a default are
+/// not_given at first; check() reports them.
 struct Scene {
   std::string name;
-  Needle needle{};      ///< no default: check() reports missing values
-  Coupling coupling{};  ///< no default: check() reports missing values
+  Needle needle{};
+  Coupling coupling{};
   std::vector<PlacedMembrane> membranes;
   ServoSettings servo{};
   Direction direction = Direction::stylus;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
+#include "punctura/model/words.hpp"
 #include "punctura/signal/line_fit.hpp"
 #include "punctura/signal/low_pass.hpp"
 
@@ -19,6 +21,8 @@ enum class Conditioning : std::uint8_t {
   low_pass,  ///< a first-order low-pass, as in K06 section 4
   line_fit,  ///< for real devices: LineFit on each axis, a low-pass whose lag the fit compensates, and a small play
 };
+template <>
+inline constexpr std::array<std::string_view, 2> words_of<Conditioning>{"low_pass", "line_fit"};
 
 /// How strongly the line fit smooths: as the encoder of the Omni needs it, and less for finer encoders.
 ///

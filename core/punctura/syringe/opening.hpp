@@ -57,8 +57,8 @@ class Opening {
   }
 
   Scalar length_, conductance_ = 0, weighted_ = 0;
-  Scalar ahead_ = 1;            ///< the share of the opening behind the layers so far
-  BasicOutlet<Scalar> here_{};  ///< the outlet of that share; in front of all layers open air
+  Scalar ahead_ = 1;                ///< the share of the opening behind the layers so far
+  BasicOutlet<Scalar> here_{0, 0};  ///< the outlet of that share; in front of all layers open air
 };
 
 template <typename Scalar>

@@ -11,12 +11,12 @@ namespace punctura {
 /// A syringe with liquid, air, or both. The plunger starts where the contents are at the pressure of the atmosphere.
 template <typename Scalar>
 struct BasicSyringe {
-  Scalar bore;        ///< inner diameter of the barrel, m
-  Scalar liquid;      ///< V_w at the start, m^3
-  Scalar air;         ///< V_a at the start, at the pressure of the atmosphere, m^3
-  Scalar friction;    ///< F, dry friction of the plunger, N
-  Scalar compliance;  ///< C: by how much the pressure widens barrel and seal, m^3/Pa
-  Scalar resistance;  ///< R_c, flow resistance of the cannula for the liquid, Pa s/m^3
+  Scalar bore = Scalar(not_given);        ///< inner diameter of the barrel, m
+  Scalar liquid = Scalar(not_given);      ///< V_w at the start, m^3
+  Scalar air{};                           ///< V_a at the start, at the pressure of the atmosphere, m^3
+  Scalar friction = Scalar(not_given);    ///< F, dry friction of the plunger, N
+  Scalar compliance = Scalar(not_given);  ///< C: by how much the pressure widens barrel and seal, m^3/Pa
+  Scalar resistance = Scalar(not_given);  ///< R_c, flow resistance of the cannula for the liquid, Pa s/m^3
 
   /// Area of the plunger, m^2.
   Scalar area() const noexcept { return std::numbers::pi_v<Scalar> / 4 * bore * bore; }
@@ -29,8 +29,8 @@ using Syringe = BasicSyringe<double>;
 /// What flows back into the syringe counts as liquid.
 template <typename Scalar>
 struct BasicOutlet {
-  Scalar resistance;  ///< R_t for the liquid, Pa s/m^3; 0 in open air
-  Scalar pressure;    ///< P_t above that of the atmosphere, Pa
+  Scalar resistance = Scalar(not_given);  ///< R_t for the liquid, Pa s/m^3; 0 in open air
+  Scalar pressure{};                      ///< P_t above that of the atmosphere, Pa
 };
 
 using Outlet = BasicOutlet<double>;
@@ -48,24 +48,56 @@ inline double tube_resistance(double bore, double length) noexcept {
 }
 
 inline constexpr FieldOf<Syringe> syringe_fields[] = {
-    {{"bore", "d", "m", {0, no_bound, true, true, "must be greater than 0"}}, &Syringe::bore},
-    {{"liquid", "V_w", "m^3", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::liquid},
-    {{"air", "V_a", "m^3", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::air},
-    {{"friction", "F", "N", {0, no_bound, false, true, "must be 0 or more"}}, &Syringe::friction},
+    {{"bore",
+      "d",
+      "m",
+      {0, no_bound, true, true, "must be greater than 0"},
+      "Inner diameter of the barrel.",
+      in_unit("mm")},
+     &Syringe::bore},
+    {{"liquid",
+      "V_w",
+      "m^3",
+      {0, no_bound, false, true, "must be 0 or more"},
+      "Volume of liquid at the start.",
+      in_unit("mL")},
+     &Syringe::liquid},
+    {{"air",
+      "V_a",
+      "m^3",
+      {0, no_bound, false, true, "must be 0 or more"},
+      "Volume of air at the start, at the pressure of the atmosphere.",
+      in_unit("mL")},
+     &Syringe::air},
+    {{"friction",
+      "F",
+      "N",
+      {0, no_bound, false, true, "must be 0 or more"},
+      "Dry friction of the plunger.",
+      in_unit("N")},
+     &Syringe::friction},
     {{"compliance",
       "C",
       "m^3/Pa",
-      {0, no_bound, true, true, "must be greater than 0: a rigid barrel has no single pressure"}},
+      {0, no_bound, true, true, "must be greater than 0: a rigid barrel has no single pressure"},
+      "By how much pressure widens barrel and seal.",
+      in_unit("mL_per_kPa")},
      &Syringe::compliance},
-    {{"resistance", "R_c", "Pa s/m^3", {0, no_bound, true, true, "must be greater than 0"}}, &Syringe::resistance},
+    {{"resistance",
+      "R_c",
+      "Pa s/m^3",
+      {0, no_bound, true, true, "must be greater than 0"},
+      "Flow resistance of the cannula for the liquid.",
+      in_unit("kPa_s_per_mL")},
+     &Syringe::resistance},
 };
 
 inline constexpr Range resistance_range = {0, no_bound, false, true, "must be 0 (open) or more"};
 inline constexpr Range pressure_range = {-atmosphere, no_bound, true, true,
                                          "must be greater than -101325 Pa: there is no lower pressure than none"};
 inline constexpr FieldOf<Outlet> outlet_fields[] = {
-    {{"resistance", "R_t", "Pa s/m^3", resistance_range}, &Outlet::resistance},
-    {{"pressure", "P_t", "Pa", pressure_range}, &Outlet::pressure},
+    {{"resistance", "R_t", "Pa s/m^3", resistance_range, "For the liquid; 0 in open air."}, &Outlet::resistance},
+    {{"pressure", "P_t", "Pa", pressure_range, "Above that of the atmosphere."}, &Outlet::pressure},
 };
 
 inline bool check(const Syringe& syringe, const std::string& path, std::vector<Problem>& problems) {

@@ -66,12 +66,12 @@ TEST_CASE("the lumen is between the membrane with blood behind it and the next o
 }
 
 TEST_CASE("each word of a look and of a space is found again, and no other word is") {
-  for (const auto word : look_words) CHECK((word_of(*enum_of<Look>(word, look_words)) == word));
-  for (const auto word : behind_words) CHECK((word_of(*enum_of<Behind>(word, behind_words)) == word));
+  for (const auto word : words_of<Look>) CHECK((word_of(*enum_of<Look>(word)) == word));
+  for (const auto word : words_of<Behind>) CHECK((word_of(*enum_of<Behind>(word)) == word));
   CHECK(word_of(Look::artery_wall) == "artery wall");
   CHECK(word_of(Behind::cerebrospinal_fluid) == "cerebrospinal fluid");
-  CHECK(!enum_of<Look>("glass", look_words));
-  CHECK(!enum_of<Behind>("", behind_words));
+  CHECK(!enum_of<Look>("glass"));
+  CHECK(!enum_of<Behind>(""));
 }
 
 TEST_CASE("a scene needs 1 to 64 membranes") {

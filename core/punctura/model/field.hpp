@@ -1,0 +1,116 @@
+// A row of the tables of fields: what checks, scene files, forms, documents and the bindings need to know of a field.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+namespace punctura {
+
+inline constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+/// A number that is not given. No range holds it, so check() reports it.
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// The permitted range of one field, SI. Schemas and documents read their bounds from here.
+struct Range {
+  double min = -no_bound;
+  double max = no_bound;
+  bool min_open = false, max_open = false;
+  const char* reason = "must be a finite number";
+
+  bool holds(double v) const noexcept {
+    return std::isfinite(v) && (min_open ? v > min : v >= min) && (max_open ? v < max : v <= max);
+  }
+};
+
+/// A unit of files: the end of a key, as in thickness_mm, its name, and its size in SI: digits times 10^exponent.
+struct FileUnit {
+  std::string_view suffix{}, name{}, digits = "1";
+  int exponent = 0;
+};
+
+/// All units of files. A longer suffix stands before one that is its end.
+inline constexpr FileUnit file_units[] = {
+    {"kPa_s_per_mL", "kPa s/mL", "1", 9},
+    {"mL_per_kPa", "mL/kPa", "1", -9},
+    {"Ns_per_mm", "N s/mm", "1", 3},
+    {"N_per_mm", "N/mm", "1", 3},
+    {"per_mm", "1/mm", "1", 3},
+    {"m_per_s", "m/s"},
+    {"rad", "rad"},
+    // pi/180 with more digits than a double, so that an angle is rounded only once
+    {"deg", "deg", "17453292519943295769236907684886127134428718885417", -51},
+    {"kPa", "kPa", "1", 3},
+    {"mm", "mm", "1", -3},
+    {"mL", "mL", "1", -6},
+    {"ms", "ms", "1", -3},
+    {"hz", "Hz"},
+    {"N", "N"},
+    {"s", "s"},
+};
+
+/// The unit with this suffix; "" is a number without a unit. Another suffix does not compile.
+consteval FileUnit in_unit(std::string_view suffix) {
+  if (suffix.empty()) return {};
+  for (const FileUnit& unit : file_units)
+    if (unit.suffix == suffix) return unit;
+  std::abort();
+}
+
+/// A field: its name, its symbol in K06, its unit and range in SI, and what files and forms say of it. Its default is
+/// the value that its struct has at first; a number that is not_given there must be given.
+struct Field {
+  std::string_view name, symbol, unit;
+  Range range{};
+  std::string_view help{};      ///< a sentence for users
+  FileUnit file{};              ///< of its key in a scene file
+  std::string_view title{};     ///< in a form, where it is not the name
+  std::string_view key_name{};  ///< in a key of a scene file, where it is not the name
+};
+
+/// A field of a struct: the field, and a pointer to the member. Value: double for a number, an enumeration with
+/// words_of, or another member.
+template <typename Owner, typename Value = double>
+struct FieldOf : Field {
+  Value Owner::* member = nullptr;
+};
+
+/// The fields of a row of a list, specialized beside each such struct. A scene file has a list for each.
+template <typename Row>
+inline constexpr std::nullptr_t columns_of{};
+
+/// Calls visit(row) for each row of a table: an array of numbers, or a tuple with members of other types.
+template <typename Rows, typename Visit>
+constexpr void for_each_row(const Rows& rows, Visit&& visit) {
+  if constexpr (requires { std::begin(rows); })
+    for (const auto& row : rows) visit(row);
+  else
+    std::apply([&](const auto&... row) { (visit(row), ...); }, rows);
+}
+
+/// The numbers of a table with members of several types.
+template <typename Owner, typename... Value>
+constexpr auto numbers_of(const std::tuple<FieldOf<Owner, Value>...>& rows) {
+  std::array<FieldOf<Owner>, (std::size_t{std::is_same_v<Value, double>} + ...)> numbers;
+  std::size_t n = 0;
+  for_each_row(rows, [&](const auto& row) {
+    if constexpr (std::is_same_v<decltype(row), const FieldOf<Owner>&>) numbers[n++] = row;
+  });
+  return numbers;
+}
+
+/// The field of a member. A member that is not in the table does not compile.
+template <typename Rows, typename Owner>
+consteval FieldOf<Owner> field_of(const Rows& rows, double Owner::* member) {
+  for (const auto& field : rows)
+    if (field.member == member) return field;
+  std::abort();
+}
+
+}  // namespace punctura
