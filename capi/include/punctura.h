@@ -261,7 +261,7 @@ typedef struct punctura_record {
   uint64_t tick;
   int32_t state; /* PUNCTURA_DISARMED ... */
   int32_t fault; /* 0: none. punctura_fault_text() says what to do */
-  int32_t limit; /* what made the force smaller: 0 none, 1 ramp, 2 peak, 3 continuous, 4 temperature */
+  int32_t limit; /* PUNCTURA_LIMIT_NONE ...: what made the force smaller */
   uint32_t membrane_count;
   double tip[3];         /* the conditioned position, m */
   double model_force[3]; /* N, without scale and limits */
@@ -272,6 +272,13 @@ typedef struct punctura_record {
   double plunger, plunger_force, pressure, left; /* m, N, Pa, m^3; NaN without a syringe */
 } punctura_record;
 enum { PUNCTURA_DISARMED = 0, PUNCTURA_WAITING = 1, PUNCTURA_ACTIVE = 2, PUNCTURA_FAULTED = 3 };
+enum {
+  PUNCTURA_LIMIT_NONE = 0,
+  PUNCTURA_LIMIT_RAMP = 1,
+  PUNCTURA_LIMIT_PEAK = 2,
+  PUNCTURA_LIMIT_CONTINUOUS = 3,
+  PUNCTURA_LIMIT_TEMPERATURE = 4
+};
 PUNCTURA_API const char* punctura_fault_text(int32_t fault);
 
 /* limits: NULL for the defaults. */

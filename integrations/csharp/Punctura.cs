@@ -5,6 +5,16 @@ using System.Text;
 
 namespace Punctura
 {
+    /// <summary>Three numbers: a position in m, a direction or a force in N.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Triple
+    {
+        public double X, Y, Z;
+        public Triple(double x, double y, double z) { X = x; Y = y; Z = z; }
+        public double Length { get { return Math.Sqrt(X * X + Y * Y + Z * Z); } }
+        public override string ToString() { return "(" + X + ", " + Y + ", " + Z + ")"; }
+    }
+
     /// <summary>A call failed. The message has one line for each problem, with the path of the value.</summary>
     public sealed class PuncturaException : Exception
     {
@@ -29,7 +39,7 @@ namespace Punctura
         {
             if (status == 0) return;
             // A tick keeps no text: the last error is then an older one.
-            bool tick = status == Native.NoPeek || status == Native.NoNumber;
+            bool tick = status == (int)Status.NoPeek || status == (int)Status.NoNumber;
             string kept = tick ? "" : From(Native.punctura_last_error());
             throw new PuncturaException(status, kept.Length > 0 ? kept : From(Native.punctura_status_text(status)));
         }
@@ -66,8 +76,8 @@ namespace Punctura
         public Scene(string name, double diameter, double tipAngle, double stiffness, double damping)
         {
             CheckLibrary();
-            SetupStruct setup;
-            Text.Check(Native.punctura_setup_init(out setup, (UIntPtr)Marshal.SizeOf(typeof(SetupStruct))));
+            Setup setup;
+            Text.Check(Native.punctura_setup_init(out setup, (UIntPtr)Marshal.SizeOf(typeof(Setup))));
             setup.Diameter = diameter;
             setup.TipAngle = tipAngle;
             setup.Stiffness = stiffness;
@@ -85,8 +95,8 @@ namespace Punctura
 
         public void Add(MembraneSettings given)
         {
-            MembraneStruct membrane;
-            Text.Check(Native.punctura_membrane_init(out membrane, (UIntPtr)Marshal.SizeOf(typeof(MembraneStruct))));
+            Membrane membrane;
+            Text.Check(Native.punctura_membrane_init(out membrane, (UIntPtr)Marshal.SizeOf(typeof(Membrane))));
             membrane.Stiffness = given.Stiffness;
             membrane.Precompression = given.Precompression;
             membrane.Friction = given.Friction;
@@ -191,6 +201,17 @@ namespace Punctura
                 return bytes;
             }
             set { Text.Check(Native.punctura_insertion_restore(this, value, (UIntPtr)value.Length)); }
+        }
+    }
+
+    public partial struct Sample
+    {
+        /// <summary>A sample without fault, at the origin, with the axis (0, -1, 0).</summary>
+        public static Sample Healthy()
+        {
+            Sample sample;
+            Native.punctura_sample_init(out sample, (UIntPtr)Marshal.SizeOf(typeof(Sample)));
+            return sample;
         }
     }
 

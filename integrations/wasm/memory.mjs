@@ -1,5 +1,7 @@
 // The WebAssembly module and its memory: text, numbers and structs for the functions of punctura.h.
 
+import { STATUS } from "./structs.mjs";
+
 const NO_PROGRAM = "WebAssembly ran out of memory, or found a defect of Punctura. Load the module again.";
 
 /** The imports of the module that only a program with files, a clock or a console needs. */
@@ -109,7 +111,8 @@ export class Memory {
   error(status) {
     const { c, scratch } = this;
     // A tick keeps no text: the last error is then an older one.
-    if (status === 4 || status === 5) return new PuncturaError(this.text(c.punctura_status_text(status)), []);
+    if (STATUS[status] === "no_peek" || STATUS[status] === "no_number")
+      return new PuncturaError(this.text(c.punctura_status_text(status)), []);
     const problems = [];
     for (let i = 0; i < c.punctura_problem_count(); ++i) {
       this.c.punctura_problem(i, scratch, scratch + 8, scratch + 16);

@@ -137,6 +137,7 @@ export interface Record {
   fault: string;
   /** what made the force smaller */
   limit: "none" | "ramp" | "peak" | "continuous" | "temperature";
+  membraneCount: number;
   /** the conditioned position, m */
   tip: [number, number, number];
   /** N, without scale and limits */

@@ -1,24 +1,13 @@
 // One membrane on a line, the model of a scene, and the whole servo step: each with peek, commit and its state.
 import { Handle } from "./memory.mjs";
 import { withScene } from "./scene.mjs";
+import {
+  LIMIT_FIELDS, LIMITS, MEMBRANE_TICK, readMembraneTick, readRecord, RECORD, SAMPLE, STATUS, writeSample,
+} from "./structs.mjs";
 
-const NO_NUMBER = 5; // PUNCTURA_NO_NUMBER
 const POSITION = 32; // places in the scratch memory
 const AXIS = 56;
 const FORCE = 80;
-// Sizes of the structs of punctura.h in wasm32. The library refuses a smaller one.
-const LIMITS = 88;
-const SAMPLE = 96;
-const RECORD = 160;
-const MEMBRANE_TICK = 88;
-
-const PHASES = ["outside", "sticking", "sliding_in", "sliding_out", "barred"];
-const STATES = ["disarmed", "waiting", "active", "faulted"];
-const LIMITED_BY = ["none", "ramp", "peak", "continuous", "temperature"];
-const LIMIT_FIELDS = [
-  "max_force", "continuous_force", "continuous_time", "ramp_time", "warm_motor", "max_speed", "stale", "deadline",
-  "axis_tolerance",
-];
 
 /** What all three have. kind: the name in the functions of punctura.h. */
 class Stepper {
@@ -68,16 +57,7 @@ class Stepper {
       memory.view.setUint32(at, MEMBRANE_TICK, true);
       if (this.call("membrane", this.at, ...index, at))
         throw new RangeError(`the scene has no membrane ${index[0]}`);
-      const number = (k) => memory.view.getFloat64(at + k, true);
-      return {
-        phase: PHASES[memory.view.getInt32(at + 4, true)],
-        depth: number(8),
-        axialForce: number(16),
-        lower: number(24),
-        upper: number(32),
-        proxy: memory.triple(at + 40),
-        direction: memory.triple(at + 64),
-      };
+      return readMembraneTick(memory, at);
     });
   }
 }
@@ -116,7 +96,7 @@ export const steppersOf = (memory) => {
       memory.put(position, scratch + POSITION);
       memory.put(axis, scratch + AXIS);
       const status = make(this.at, scratch + POSITION, scratch + AXIS, scratch + FORCE);
-      if (status === NO_NUMBER)
+      if (STATUS[status] === "no_number")
         throw new RangeError(
           `position is [${position}] and axis is [${axis}]: they must be finite, a position below 1e6 m, an axis not 0`,
         );
@@ -134,10 +114,10 @@ export const steppersOf = (memory) => {
       try {
         memory.must(c.punctura_limits_init(at, LIMITS));
         for (const [name, value] of Object.entries(limits)) {
-          const k = LIMIT_FIELDS.indexOf(name);
-          if (name === "dead_man") memory.view.setUint32(at + 80, value, true);
-          else if (k < 0) throw new Error(`there is no limit ${name}: dead_man, ${LIMIT_FIELDS.join(", ")}`);
-          else memory.view.setFloat64(at + 8 + 8 * k, value, true);
+          if (!Object.hasOwn(LIMIT_FIELDS, name))
+            throw new Error(`there is no limit ${name}: ${Object.keys(LIMIT_FIELDS).join(", ")}`);
+          const [offset, type] = LIMIT_FIELDS[name];
+          memory.view[`set${type}`](at + offset, value, true);
         }
         super(memory, "servo", scene, at);
       } finally {
@@ -158,36 +138,16 @@ export const steppersOf = (memory) => {
     }
     #tick(make, { sequence, time, position, axis, buttons = 0, healthy = true, motorTemperature = 0, thumb = 0 }) {
       memory.must(c.punctura_sample_init(sampleAt, SAMPLE));
-      const { view } = memory;
-      view.setBigUint64(sampleAt + 8, BigInt(sequence), true);
-      view.setFloat64(sampleAt + 16, time, true);
-      memory.put(position, sampleAt + 24);
-      memory.put(axis, sampleAt + 48);
-      view.setUint32(sampleAt + 72, buttons, true);
-      view.setInt32(sampleAt + 76, healthy ? 1 : 0, true);
-      view.setFloat64(sampleAt + 80, motorTemperature, true);
-      view.setFloat64(sampleAt + 88, thumb, true);
-      view.setUint32(recordAt, RECORD, true);
+      const state = healthy ? 1 : 0;
+      const count = BigInt(sequence);
+      const given = { sequence: count, time, position, axis, buttons, healthy: state, motorTemperature, thumb };
+      writeSample(memory, sampleAt, given);
+      memory.view.setUint32(recordAt, RECORD, true);
       memory.must(make(this.at, sampleAt, recordAt));
-      const number = (k) => view.getFloat64(recordAt + k, true);
-      const code = (k) => view.getInt32(recordAt + k, true);
-      const fault = code(20);
-      return {
-        tick: Number(view.getBigUint64(recordAt + 8, true)),
-        state: STATES[code(16)],
-        fault: fault ? memory.text(c.punctura_fault_text(fault)) : "",
-        limit: LIMITED_BY[code(24)],
-        tip: memory.triple(recordAt + 32),
-        modelForce: memory.triple(recordAt + 56),
-        force: memory.triple(recordAt + 80),
-        forceScale: number(104),
-        ceiling: number(112),
-        thumbForce: number(120),
-        plunger: number(128),
-        plungerForce: number(136),
-        pressure: number(144),
-        left: number(152),
-      };
+      const record = readRecord(memory, recordAt);
+      record.tick = Number(record.tick);
+      record.fault = record.fault ? memory.text(c.punctura_fault_text(record.fault)) : "";
+      return record;
     }
   }
   return { Proxy1d, Insertion, Servo };

@@ -52,7 +52,7 @@ for (const [k, row] of rows.entries()) {
 }
 const faulted = servo.step({ sequence: ticks, time: ticks / 1600, position: [NaN, 0, 0], axis: [0, -1, 0] });
 deepStrictEqual([faulted.state, faulted.force], ["faulted", [0, 0, 0]]);
-match(faulted.fault, /not a number/);
+match(faulted.fault, /not finite/);
 throws(() => new Servo(file, { max_farce: 1 }), /no limit max_farce/);
 throws(() => new Servo(file, { max_force: -1 }), /max_force = -1: /);
 

@@ -109,7 +109,7 @@ static class Test
             sample.Position.X = double.NaN;
             Record faulted = servo.Step(sample);
             Require(faulted.State == ServoState.Faulted && faulted.Force.Y == 0, "a fault");
-            Require(Servo.FaultText(faulted.Fault).Contains("not a number"), "the text of the fault");
+            Require(Servo.FaultText(faulted.Fault).Contains("not finite"), "the text of the fault");
         }
     }
 

@@ -173,11 +173,11 @@ impl Insertion {
     /// The complete state. `restore` continues from it with the same bits.
     pub fn state(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = vec![0; unsafe { ffi::punctura_insertion_state_size(self.0) }];
-        check(unsafe { ffi::punctura_insertion_save(self.0, bytes.as_mut_ptr(), bytes.len()) })?;
+        check(unsafe { ffi::punctura_insertion_save(self.0, bytes.as_mut_ptr().cast(), bytes.len()) })?;
         Ok(bytes)
     }
     pub fn restore(&mut self, state: &[u8]) -> Result<(), Error> {
-        check(unsafe { ffi::punctura_insertion_restore(self.0, state.as_ptr(), state.len()) })
+        check(unsafe { ffi::punctura_insertion_restore(self.0, state.as_ptr().cast(), state.len()) })
     }
 }
 

@@ -94,5 +94,5 @@ fn a_servo_gives_force_and_latches_a_fault() {
     sample.position[0] = f64::NAN;
     let record = servo.step(&sample);
     assert_eq!(record.force, [0.0; 3]);
-    assert!(fault_text(record.fault).contains("not a number"));
+    assert!(fault_text(record.fault).contains("not finite"));
 }
