@@ -16,14 +16,14 @@ if [ -n "$missing" ]; then echo "Missing: apt-get install$missing" >&2; exit 1; 
 export out=build/neon
 mkdir -p "$out/include"
 ln -sfn /usr/include/doctest "$out/include/doctest"  # the rest of /usr/include is for another processor
-export flags="-std=c++20 -O2 -ffp-contract=off -Wall -Wextra -DPUNCTURA_BATCH_NEON
+export flags="-std=c++20 -O2 -ffp-contract=off -Wall -Wextra
   -Icore -Iruntime -Itests -isystem $out/include"
 
 compile() { aarch64-linux-gnu-g++ $flags -c "$1" -o "$out/$(basename "$1" .cpp).o"; }
 export -f compile
 rm -f "$out"/*.o
 { printf '%s\n' tests/core/main.cpp tests/runtime/batch/*_test.cpp
-  printf 'runtime/punctura_runtime/batch/%s.cpp\n' line_neon line_portable line_batch line_block lane_wall blocks \
+  printf 'runtime/punctura_runtime/batch/%s.cpp\n' line_base line_portable line_batch line_block lane_wall blocks \
     run_line lane_trials scene_trials scene_batch fleet_block fleet; } |
   xargs -P 2 -I{} bash -ec 'compile {}'
 aarch64-linux-gnu-g++ -static "$out"/*.o -pthread -o "$out/tests"

@@ -2,6 +2,7 @@
 #include "operations.hpp"
 
 #include "punctura_runtime/batch/line_kernel.hpp"
+#include "punctura_runtime/batch/twice.hpp"
 
 namespace punctura::bench_batch {
 
@@ -9,26 +10,24 @@ namespace {
 
 Operations counted;
 
-/// Portable, but each operation counts once for the whole vector.
-struct Counting : batch::Portable {
-  static Vector add(const Vector& a, const Vector& b) noexcept { return ++counted.add, Portable::add(a, b); }
-  static Vector subtract(const Vector& a, const Vector& b) noexcept { return ++counted.add, Portable::subtract(a, b); }
-  static Vector multiply(const Vector& a, const Vector& b) noexcept {
-    return ++counted.multiply, Portable::multiply(a, b);
-  }
-  static Vector divide(const Vector& a, const Vector& b) noexcept { return ++counted.divide, Portable::divide(a, b); }
-  static Vector root(const Vector& a) noexcept { return ++counted.root, Portable::root(a); }
-  static Vector smaller(const Vector& a, const Vector& b) noexcept {
-    return ++counted.min_max, Portable::smaller(a, b);
-  }
-  static Vector larger(const Vector& a, const Vector& b) noexcept { return ++counted.min_max, Portable::larger(a, b); }
-  static Mask less(const Vector& a, const Vector& b) noexcept { return ++counted.compare, Portable::less(a, b); }
+using Four = batch::Twice<batch::Twice<batch::Portable>>;
+
+/// Four lanes. Each operation counts once for the whole vector.
+struct Counting : Four {
+  static Vector add(const Vector& a, const Vector& b) noexcept { return ++counted.add, Four::add(a, b); }
+  static Vector subtract(const Vector& a, const Vector& b) noexcept { return ++counted.add, Four::subtract(a, b); }
+  static Vector multiply(const Vector& a, const Vector& b) noexcept { return ++counted.multiply, Four::multiply(a, b); }
+  static Vector divide(const Vector& a, const Vector& b) noexcept { return ++counted.divide, Four::divide(a, b); }
+  static Vector root(const Vector& a) noexcept { return ++counted.root, Four::root(a); }
+  static Vector smaller(const Vector& a, const Vector& b) noexcept { return ++counted.min_max, Four::smaller(a, b); }
+  static Vector larger(const Vector& a, const Vector& b) noexcept { return ++counted.min_max, Four::larger(a, b); }
+  static Mask less(const Vector& a, const Vector& b) noexcept { return ++counted.compare, Four::less(a, b); }
   static Mask less_equal(const Vector& a, const Vector& b) noexcept {
-    return ++counted.compare, Portable::less_equal(a, b);
+    return ++counted.compare, Four::less_equal(a, b);
   }
-  static Mask equal(const Vector& a, const Vector& b) noexcept { return ++counted.compare, Portable::equal(a, b); }
+  static Mask equal(const Vector& a, const Vector& b) noexcept { return ++counted.compare, Four::equal(a, b); }
   static Vector select(const Mask& m, const Vector& a, const Vector& b) noexcept {
-    return ++counted.select, Portable::select(m, a, b);
+    return ++counted.select, Four::select(m, a, b);
   }
 };
 
@@ -36,7 +35,7 @@ struct Counting : batch::Portable {
 
 Operations operations(Work& work, Solver solver) {
   const batch::LineCode code{
-      "counting", Counting::lanes, batch::run_line<Counting, Paper>, batch::run_line<Counting, Exact>,
+      "counting", Counting::lanes, batch::run_line<Counting, Paper>, batch::run_line<Counting, Exact>, nullptr, nullptr,
       nullptr,    nullptr};
   batch::RunOptions options;
   options.threads = 1;

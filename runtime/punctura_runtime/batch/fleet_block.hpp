@@ -26,8 +26,8 @@ struct FleetSetup {
 /// all its ticks again, alone: it keeps 24 bytes for each step since its start.
 class FleetBlock final : public LaneTrials {
  public:
-  /// The trials of a block: one vector, so that many threads find work.
-  static std::size_t width(const LineCode& code) noexcept { return 2 * code.lanes; }
+  /// The trials of a block: one vector, so that many threads find work; without lanes, enough for a thread.
+  static std::size_t width(const LineCode& code) noexcept { return code.fleet_exact ? 2 * code.lanes : 8; }
 
   explicit FleetBlock(const FleetSetup& setup);
 

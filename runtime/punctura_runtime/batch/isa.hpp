@@ -17,87 +17,36 @@
 
 namespace punctura::batch {
 
-/// Four doubles without special instructions, for other processors and to compare with.
+/// One double without special instructions, for other processors and to compare with.
 struct Portable {
-  static constexpr std::size_t lanes = 4;
-  struct Vector {
-    std::array<double, lanes> lane;
-  };
-  struct Mask {
-    std::array<bool, lanes> lane;
-  };
+  static constexpr const char* name = "portable";
+  static constexpr std::size_t lanes = 1;
+  using Vector = double;
+  using Mask = bool;
 
-  static Vector all(double x) noexcept { return {{x, x, x, x}}; }
-  static Vector load(const double* from) noexcept { return {{from[0], from[1], from[2], from[3]}}; }
-  static void store(double* to, const Vector& v) noexcept {
-    for (std::size_t i = 0; i < lanes; ++i) to[i] = v.lane[i];
-  }
-  template <typename Result, typename Function>
-  static Result each(Function&& function) noexcept {
-    Result r;
-    for (std::size_t i = 0; i < lanes; ++i) r.lane[i] = function(i);
-    return r;
-  }
-  static Vector add(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return a.lane[i] + b.lane[i]; });
-  }
-  static Vector subtract(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return a.lane[i] - b.lane[i]; });
-  }
-  static Vector multiply(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return a.lane[i] * b.lane[i]; });
-  }
-  static Vector divide(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return a.lane[i] / b.lane[i]; });
-  }
-  static Vector negate(const Vector& a) noexcept {
-    return each<Vector>([&](std::size_t i) { return -a.lane[i]; });
-  }
-  static Vector root(const Vector& a) noexcept {
-    return each<Vector>([&](std::size_t i) { return std::sqrt(a.lane[i]); });
-  }
-  static Vector round_down(const Vector& a) noexcept {
-    return each<Vector>([&](std::size_t i) { return std::floor(a.lane[i]); });
-  }
-  static Vector exponent(const Vector& a) noexcept {
-    return each<Vector>([&](std::size_t i) { return exponent_of(a.lane[i]); });
-  }
-  static Vector significand(const Vector& a) noexcept {
-    return each<Vector>([&](std::size_t i) { return significand_of(a.lane[i]); });
-  }
-  static Vector smaller(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return b.lane[i] < a.lane[i] ? b.lane[i] : a.lane[i]; });
-  }
-  static Vector larger(const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return a.lane[i] < b.lane[i] ? b.lane[i] : a.lane[i]; });
-  }
-  static Mask less(const Vector& a, const Vector& b) noexcept {
-    return each<Mask>([&](std::size_t i) { return a.lane[i] < b.lane[i]; });
-  }
-  static Mask less_equal(const Vector& a, const Vector& b) noexcept {
-    return each<Mask>([&](std::size_t i) { return a.lane[i] <= b.lane[i]; });
-  }
-  static Mask equal(const Vector& a, const Vector& b) noexcept {
-    return each<Mask>([&](std::size_t i) { return a.lane[i] == b.lane[i]; });
-  }
-  static Mask truth(bool b) noexcept { return {{b, b, b, b}}; }
-  static Mask both(const Mask& a, const Mask& b) noexcept {
-    return each<Mask>([&](std::size_t i) { return a.lane[i] && b.lane[i]; });
-  }
-  static Mask either(const Mask& a, const Mask& b) noexcept {
-    return each<Mask>([&](std::size_t i) { return a.lane[i] || b.lane[i]; });
-  }
-  static Mask invert(const Mask& a) noexcept {
-    return each<Mask>([&](std::size_t i) { return !a.lane[i]; });
-  }
-  static Vector select(const Mask& m, const Vector& a, const Vector& b) noexcept {
-    return each<Vector>([&](std::size_t i) { return m.lane[i] ? a.lane[i] : b.lane[i]; });
-  }
-  static unsigned bits(const Mask& m) noexcept {
-    unsigned bits = 0;
-    for (std::size_t i = 0; i < lanes; ++i) bits |= static_cast<unsigned>(m.lane[i]) << i;
-    return bits;
-  }
+  static Vector all(double x) noexcept { return x; }
+  static Vector load(const double* from) noexcept { return *from; }
+  static void store(double* to, Vector v) noexcept { *to = v; }
+  static Vector add(Vector a, Vector b) noexcept { return a + b; }
+  static Vector subtract(Vector a, Vector b) noexcept { return a - b; }
+  static Vector multiply(Vector a, Vector b) noexcept { return a * b; }
+  static Vector divide(Vector a, Vector b) noexcept { return a / b; }
+  static Vector negate(Vector a) noexcept { return -a; }
+  static Vector root(Vector a) noexcept { return std::sqrt(a); }
+  static Vector round_down(Vector a) noexcept { return std::floor(a); }
+  static Vector exponent(Vector a) noexcept { return exponent_of(a); }
+  static Vector significand(Vector a) noexcept { return significand_of(a); }
+  static Vector smaller(Vector a, Vector b) noexcept { return b < a ? b : a; }
+  static Vector larger(Vector a, Vector b) noexcept { return a < b ? b : a; }
+  static Mask less(Vector a, Vector b) noexcept { return a < b; }
+  static Mask less_equal(Vector a, Vector b) noexcept { return a <= b; }
+  static Mask equal(Vector a, Vector b) noexcept { return a == b; }
+  static Mask truth(bool b) noexcept { return b; }
+  static Mask both(Mask a, Mask b) noexcept { return a && b; }
+  static Mask either(Mask a, Mask b) noexcept { return a || b; }
+  static Mask invert(Mask a) noexcept { return !a; }
+  static Vector select(Mask m, Vector a, Vector b) noexcept { return m ? a : b; }
+  static unsigned bits(Mask m) noexcept { return m; }
 };
 
 /// The bits of the digits behind the point of a double.
@@ -108,6 +57,7 @@ inline constexpr std::int64_t double_digits = 0x000fffffffffffff;
 #if defined(__SSE2__) || defined(_M_X64)
 /// Two doubles: every processor with 64-bit x86.
 struct Sse2 {
+  static constexpr const char* name = "sse2";
   static constexpr std::size_t lanes = 2;
   using Vector = __m128d;
   using Mask = __m128d;
@@ -153,6 +103,7 @@ struct Sse2 {
 #if defined(__AVX2__)
 /// Four doubles.
 struct Avx2 {
+  static constexpr const char* name = "avx2";
   static constexpr std::size_t lanes = 4;
   using Vector = __m256d;
   using Mask = __m256d;
@@ -193,6 +144,7 @@ struct Avx2 {
 #if defined(__AVX512F__)
 /// Eight doubles. maskz_ with all lanes: GCC 12 warns of an undefined value in its own functions without a mask.
 struct Avx512 {
+  static constexpr const char* name = "avx512";
   static constexpr std::size_t lanes = 8;
   using Vector = __m512d;
   using Mask = __mmask8;
@@ -238,6 +190,7 @@ struct Avx512 {
 #if defined(__aarch64__)
 /// Two doubles: every 64-bit ARM processor.
 struct Neon {
+  static constexpr const char* name = "neon";
   static constexpr std::size_t lanes = 2;
   using Vector = float64x2_t;
   using Mask = uint64x2_t;

@@ -95,9 +95,7 @@ template <typename Isa, typename Solver>
 bool run_line(LineBlock& block, const LineSpan& span) noexcept {
   using V = Simd<Isa>;
   constexpr auto run = [](auto shared, auto stores, LineBlock& b, const LineSpan& s) noexcept {
-    // Several vectors hide the wait for a result. A vector of Portable is four plain doubles, which do so by
-    // themselves; four such vectors take a compiler four times longer.
-    constexpr std::size_t together = std::is_same_v<Isa, Portable> ? 1 : 4, width = together * V::lanes;
+    constexpr std::size_t together = 4, width = together * V::lanes;  // several vectors hide the wait for a result
     constexpr std::make_index_sequence<together> vectors;
     constexpr std::size_t turns = block_lanes / width;
     bool good = true;

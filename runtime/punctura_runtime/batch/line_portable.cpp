@@ -6,8 +6,8 @@ namespace punctura::batch {
 
 const LineCode& line_code_portable() noexcept {
   static constexpr LineCode code{
-      "portable", Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>, nullptr, nullptr,
-      nullptr,    nullptr};
+      Portable::name, Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>, nullptr, nullptr,
+      nullptr,        nullptr};
   return code;
 }
 

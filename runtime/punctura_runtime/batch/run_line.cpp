@@ -9,12 +9,7 @@ const std::vector<const LineCode*>& line_codes() {
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) found.push_back(&line_code_avx512());
     if (__builtin_cpu_supports("avx2")) found.push_back(&line_code_avx2());
 #endif
-#if defined(PUNCTURA_BATCH_SSE2)
-    found.push_back(&line_code_sse2());
-#endif
-#if defined(PUNCTURA_BATCH_NEON)
-    found.push_back(&line_code_neon());
-#endif
+    if (const LineCode* base = line_code_base()) found.push_back(base);
     found.push_back(&line_code_portable());
     return found;
   }();

@@ -27,16 +27,11 @@ struct LineCode {
 };
 
 const LineCode& line_code_portable() noexcept;
-#if defined(PUNCTURA_BATCH_SSE2)
-const LineCode& line_code_sse2() noexcept;
-#endif
-#if defined(PUNCTURA_BATCH_AVX)
+/// "sse2" or "neon"; null on a processor without vectors that this file knows.
+const LineCode* line_code_base() noexcept;
+// Only with PUNCTURA_BATCH_AVX.
 const LineCode& line_code_avx2() noexcept;
 const LineCode& line_code_avx512() noexcept;
-#endif
-#if defined(PUNCTURA_BATCH_NEON)
-const LineCode& line_code_neon() noexcept;
-#endif
 
 /// The instruction sets of this build that the processor has, the fastest first.
 const std::vector<const LineCode*>& line_codes();

@@ -155,3 +155,12 @@ TEST_CASE("an exception in a block or in watch() ends all threads and reaches th
   batch::for_each_block(50, 3, other, [&](std::size_t) { ++blocks; }, good);
   CHECK(blocks == 50);
 }
+
+TEST_CASE("every build for 64-bit x86 has SSE2, every one for 64-bit ARM has NEON, and the plain code comes last") {
+#if defined(__x86_64__)
+  CHECK(batch::line_code("sse2") != nullptr);
+#elif defined(__aarch64__)
+  CHECK(batch::line_code("neon") == batch::line_codes().front());
+#endif
+  CHECK(batch::line_codes().back() == batch::line_code("portable"));
+}
