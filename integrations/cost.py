@@ -130,7 +130,7 @@ def fmu(rows: np.ndarray, rate: float) -> float:
 
 
 def ros(rows: np.ndarray, rate: float) -> float:
-    sys.path[:0] = [str(HERE / "ros2"), str(HERE / "ros2/test/stand_ins")]
+    sys.path[:0] = [str(HERE / "untried/ros2"), str(HERE / "untried/ros2/test/stand_ins")]
     from punctura_ros.node import NeedleNode  # type: ignore[import-not-found]
     from rclpy.node import Node  # type: ignore[import-not-found]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs integrations/*/test.sh, one after the other, and prints one line per integration.
+# Runs the test.sh of each folder here and in untried, one after the other, and prints one line per integration.
 #   integrations/run.sh              all of them
-#   integrations/run.sh octave unity only these
+#   integrations/run.sh octave rust  only these
 #
 # A test.sh installs what it needs, then tests its integration. Exit status 0: passed. 77: its tool chain is missing,
 # and the last line of its output says what and why. Any other: failed. ./test integrations runs this script.
@@ -12,7 +12,9 @@ mkdir -p "$log"
 
 names=("$@")
 if [ ${#names[@]} -eq 0 ]; then
-  for test in "$here"/*/test.sh; do [ ! -f "$test" ] || names+=("$(basename "$(dirname "$test")")"); done
+  for test in "$here"/*/test.sh "$here"/untried/*/test.sh; do
+    [ ! -f "$test" ] || { test=${test#"$here/"} && names+=("${test%/test.sh}"); }
+  done
 fi
 
 passed=0 missing=0 failed=0
@@ -22,18 +24,18 @@ for name in ${names[@]+"${names[@]}"}; do
     failed=$((failed + 1))
     continue
   fi
-  start=$SECONDS code=0 said=$log/integration-$name.log
-  (cd "$here/$name" && exec bash ./test.sh) >"$said" 2>&1 </dev/null || code=$?
+  start=$SECONDS code=0 said=integration-${name##*/}.log
+  (cd "$here/$name" && exec bash ./test.sh) >"$log/$said" 2>&1 </dev/null || code=$?
   case $code in
     0) passed=$((passed + 1)); echo "$name: passed, $((SECONDS - start)) s" ;;
     77)
       missing=$((missing + 1))
-      echo "note: $name was not tested, its tool chain is missing: $(tail -n 1 "$said")"
+      echo "note: $name was not tested, its tool chain is missing: $(tail -n 1 "$log/$said")"
       ;;
     *)
       failed=$((failed + 1))
-      echo "$name: FAILED with status $code after $((SECONDS - start)) s. The end of build/log/integration-$name.log:"
-      tail -n 40 "$said" | sed 's/^/    /'
+      echo "$name: FAILED with status $code after $((SECONDS - start)) s. The end of build/log/$said:"
+      tail -n 40 "$log/$said" | sed 's/^/    /'
       ;;
   esac
 done

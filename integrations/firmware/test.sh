@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# The knob on a Cortex-M4F and on a 32-bit RISC-V, both in an emulator: forces, instructions, code, heap; and the
-# Arduino sketch, against a stand-in.
+# The knob on a Cortex-M4F and on a 32-bit RISC-V, both in an emulator: forces, instructions, code, heap.
 source "$(dirname "$0")/../tools.sh"
 need arm-none-eabi-g++ gcc-arm-none-eabi
 need riscv64-unknown-elf-g++ gcc-riscv64-unknown-elf
@@ -41,9 +40,3 @@ picolibc=/usr/lib/picolibc/riscv64-unknown-elf
 on riscv32 riscv64-unknown-elf "$picolibc/lib/release/rv32imafc/ilp32f/libc.a" \
   -march=rv32imafc -mabi=ilp32f -Wl,--no-relax -isystem "$headers" \
   -isystem "$headers/arm-none-eabi" -isystem "$picolibc/include"
-
-rm -rf library
-bash "$here/pack.sh" library
-g++ ${flags/-I"$root/core"/} -fsyntax-only -I"$here/stand_in" -Ilibrary/Punctura/src -include Arduino.h -x c++ \
-  library/Punctura/examples/Knob/Knob.ino
-echo "the sketch compiles against the stand-in for Arduino.h"

@@ -9,10 +9,10 @@ import punctura
 
 ROOT = Path(__file__).parents[2]
 INTEGRATIONS = {  # each file and the line with the version
-    "firmware/arduino/library.json": r'"version": "(.*)"',
-    "firmware/arduino/library.properties": r"version=(.*)",
-    "ros2/package.xml": r"<version>(.*)</version>",
-    "ros2/setup.py": r'version="(.*)"',
+    "untried/arduino/library/library.json": r'"version": "(.*)"',
+    "untried/arduino/library/library.properties": r"version=(.*)",
+    "untried/ros2/package.xml": r"<version>(.*)</version>",
+    "untried/ros2/setup.py": r'version="(.*)"',
     "rust/Cargo.toml": r'\nversion = "(.*)"',
     "wasm/package.json": r'"version": "(.*)"',
 }

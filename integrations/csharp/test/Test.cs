@@ -1,20 +1,18 @@
-// Compares the forces of the binding and of the Unity component with those of the core.
+// Compares the forces of the binding with those of the core.
 //   Test.exe REFERENCE          with a second argument, only the time of a tick
 using System;
 using System.IO;
-using System.Reflection;
 using Punctura;
-using UnityEngine;
 
 static class Test
 {
-    static void Require(bool holds, string what)
+    internal static void Require(bool holds, string what)
     {
         if (!holds) throw new Exception("not so: " + what);
     }
 
     static long Bits(double x) { return BitConverter.DoubleToInt64Bits(x); }
-    static bool Same(double a, double b) { return Bits(a) == Bits(b); }
+    internal static bool Same(double a, double b) { return Bits(a) == Bits(b); }
     static bool Same(Triple a, Triple b) { return Same(a.X, b.X) && Same(a.Y, b.Y) && Same(a.Z, b.Z); }
 
     static Triple[,] ReadRows(string file)
@@ -113,57 +111,6 @@ static class Test
         }
     }
 
-    static void Call(object component, string method)
-    {
-        component.GetType().GetMethod(method, BindingFlags.Instance | BindingFlags.NonPublic).Invoke(component, null);
-    }
-
-    /// Unity's positions are floats: so the same floats go through the binding for comparison.
-    static void Component(double rate)
-    {
-        new PuncturaMembrane { name = "skin" };
-        var needle = new PuncturaNeedle { name = "needle", body = new Rigidbody() };
-        needle.transform.forward = new Vector3(0, -1, 0);
-        needle.transform.position = new Vector3(0, 2e-3f, 0);
-        Time.fixedDeltaTime = (float)(16 / rate);
-        Call(needle, "OnEnable");
-        using (var scene = new Scene("needle", 1.08f * 1e-3, 16f * Math.PI / 180, 0.4f * 1e3, 0.001f * 1e3))
-        {
-            scene.Add(new MembraneSettings
-            {
-                Stiffness = 0.57f * 1e3, Precompression = 0.41f, Friction = 0.2f, Thickness = 1f * 1e-3,
-            });
-            using (var insertion = new Insertion(scene))
-            {
-                double last = 2e-3f, peak = 0;
-                Triple expected = new Triple();
-                for (int k = 0; k < 100; ++k)
-                {
-                    float y = 2e-3f - 1e-4f * k;
-                    needle.transform.position = new Vector3(0, y, 0);
-                    Call(needle, "FixedUpdate");
-                    for (int i = 1; i <= 16; ++i)
-                    {
-                        double now = i == 16 ? y : last + (y - last) * (i / 16.0);
-                        expected = insertion.Step(new Triple(0, now, 0), new Triple(0, -1, 0));
-                    }
-                    last = y;
-                    Require(Same(needle.ExactForce.Y, expected.Y), "force of the component in step " + k);
-                    peak = Math.Max(peak, needle.Force.y);
-                }
-                Require(peak > 0.5 && needle.Force.y < peak && needle.body.force.y == needle.Force.y, "a pop");
-                Call(needle, "OnGUI");
-                needle.body.force = new Vector3(0, 0, 0);
-                needle.transform.position = new Vector3(0, float.NaN, 0);
-                Call(needle, "FixedUpdate");
-                Require(needle.body.force.y == 0 && double.IsNaN(needle.ExactForce.Y), "no force at NaN for the body");
-                Require(GUI.Shown.StartsWith("needle: 0") && GUI.Shown.EndsWith(" N"), GUI.Shown);
-                Console.WriteLine("component (stand-ins for Unity): peak " + peak.ToString("0.000") + " N, then " + GUI.Shown);
-            }
-        }
-        Call(needle, "OnDisable");
-    }
-
     static int Main(string[] arguments)
     {
         string toml = File.ReadAllText(Path.Combine(arguments[0], "scene.toml"));
@@ -176,7 +123,6 @@ static class Test
         Binding(toml, rows);
         Errors(toml);
         Device(toml);
-        Component(1600);
         return 0;
     }
 }

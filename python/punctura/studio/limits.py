@@ -1,4 +1,4 @@
-"""Limits for connections, requests and unread data: docs/studio-server.md has the table. A page stays far below them."""
+"""Limits for connections, requests and unread data: see docs/studio-server.md. A page stays far below them."""
 
 from __future__ import annotations
 

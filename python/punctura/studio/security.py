@@ -1,6 +1,6 @@
 """Access to the studio: only from this computer, from the studio's own page, and with the token of this run.
 
-ASGI middleware around everything else. A refusal has a status and a sentence. docs/studio-server.md explains each check.
+ASGI middleware around everything else. A refusal has a status and a sentence. See docs/studio-server.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The node and the bag reader: the forces of the core.
 
-python integrations/ros2/test/check.py REFERENCE FOLDER
+python integrations/untried/ros2/test/check.py REFERENCE FOLDER
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The node: geometry_msgs/PoseStamped of the needle's tip in, geometry_msgs/WrenchStamped out."""
+"""The node, never run in ROS: geometry_msgs/PoseStamped of the needle's tip in, geometry_msgs/WrenchStamped out."""
 
 from __future__ import annotations
 

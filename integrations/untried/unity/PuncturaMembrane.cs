@@ -1,4 +1,5 @@
-// A membrane in a Unity scene. Its surface is the plane of the transform; the needle enters against the transform's up.
+// Never run in Unity: a membrane in a Unity scene. Its surface is the plane of the transform; the needle enters against
+// the transform's up.
 using UnityEngine;
 
 namespace Punctura

@@ -1,4 +1,4 @@
-// The needle on one axis, for firmware: Proxy1d<ThickLawF>. docs: integrations/firmware/README.md.
+// The needle on one axis, for firmware: Proxy1d<ThickLawF>. docs: integrations/untried/arduino/README.md.
 #pragma once
 // Some cores of Arduino define these words as macros, which break the C++ library. The sketch keeps them.
 #pragma push_macro("min")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The ROS 2 node, with ROS where it is installed and with stand-ins otherwise, and the reader of bags.
-source "$(dirname "$0")/../tools.sh"
+source "$(dirname "$0")/../../tools.sh"
 need_module rosbags rosbags
 make_reference
 rm -rf "$work" && mkdir -p "$work"

@@ -1,5 +1,5 @@
-// A needle in a Unity scene: put it on the needle's object. The tip is at the transform's position, and the needle
-// points along the transform's forward axis.
+// Never run in Unity: a needle in a Unity scene. Put it on the needle's object. The tip is at the transform's position,
+// and the needle points along the transform's forward axis.
 //
 // The membranes are those of a scene file, or all PuncturaMembrane of the scene at the start.
 using UnityEngine;

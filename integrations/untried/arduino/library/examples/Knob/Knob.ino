@@ -1,5 +1,5 @@
-// A slider that feels like a needle: a potentiometer at A0 gives the depth, a motor driver at pin 9 takes the force.
-// It has no safety limits: use a motor that cannot hurt a finger. The driver must stop without a PWM signal.
+// Never run on a board: a slider that feels like a needle. A potentiometer at A0 gives the depth, a motor driver at pin
+// 9 takes the force. It has no safety limits: use a motor that cannot hurt a finger. The driver must stop without a PWM signal.
 #include <Punctura.h>
 
 using namespace punctura;
