@@ -16,7 +16,7 @@
 #include "punctura/scene/build.hpp"
 #include "punctura/scene/passivity.hpp"
 #include "punctura/scene/values.hpp"
-#include "punctura/servo/servo_step.hpp"
+#include "punctura/servo/any_step.hpp"
 #include "punctura/state/archive.hpp"
 #include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"

@@ -1,4 +1,4 @@
-// The interface between the servo loop and a haptic device. It is the only interface in core with virtual functions.
+// The interface between the servo loop and a haptic device: like AnyStep, a class with virtual functions.
 #pragma once
 
 #include <array>

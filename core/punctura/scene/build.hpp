@@ -74,10 +74,28 @@ std::optional<BasicInsertion<Scalar>> try_build_insertion(const Scene& scene, st
   return detail::if_good(check(scene), problems, [&] { return detail::model_of<Scalar>(scene); });
 }
 
-/// How much of the model's force a device with these limits gives. insertion: of the scene, which has passed check().
+/// The largest force of a model of any kind along the needle, N. insertion: of the scene, which has passed check().
+///
+/// A model without bands is tried: from 5 mm in front of the first membrane to 30 mm behind the last one.
+template <typename Insertion>
+double largest_force(const Scene& scene, const Insertion& insertion) {
+  if constexpr (requires { largest_force(insertion); }) {
+    return largest_force(insertion);
+  } else {
+    const Vector3d first = to_vector(scene.membranes[0].point),
+                   inwards = to_vector(scene.membranes[0].inward_normal).stableNormalized();
+    double farthest = 0;
+    for (const PlacedMembrane& m : scene.membranes)
+      farthest = std::max(farthest, inwards.dot(to_vector(m.point) - first));
+    return largest_force(insertion, first - 5e-3 * inwards, inwards, farthest + 35e-3, 1 / scene.servo.rate);
+  }
+}
+
+/// How much of the model's force a device with these limits gives. insertion: as in largest_force().
 template <typename Insertion>
 double force_scale(const Scene& scene, const Insertion& insertion, const ForceLimits& limits) {
-  return scene.display.automatic ? automatic_force_scale(insertion, limits) : scene.display.force_scale;
+  return scene.display.automatic ? automatic_force_scale(largest_force(scene, insertion), limits)
+                                 : scene.display.force_scale;
 }
 
 namespace detail {

@@ -24,30 +24,16 @@
 
 namespace punctura {
 
-/// The servo step: input gate, model, force scale, force limits and the record of a tick.
+/// Everything of a servo step but its model: input gate, force scale, force limits, fault, fade, syringe and record.
 ///
-/// Insertion: the BasicInsertion of a scene, or an InsertionOf with your own laws and coupling. A tick is computed in
-/// its Scalar. The record is double.
-template <typename Insertion>
-class ServoStepOf {
+/// No model goes around it: step() asks a model for its force, and only step() makes the force for the device.
+/// Scalar: that of the model. The record is double.
+template <typename Scalar_, typename Storage = HeapStorage>
+class ServoGuard {
  public:
-  using Scalar = typename Insertion::Scalar;
+  using Scalar = Scalar_;
   using Vector = Vector3<Scalar>;
-  using Syringe = NeedleSyringe<Scalar, typename Insertion::StoredIn>;
-
-  /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. force_scale: how much of the model's
-  /// force the device gives. The program aborts if it is not greater than 0 and at most 1, or if insertion has more
-  /// than max_membranes membranes.
-  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {},
-              Scalar force_scale = 1)
-      : insertion_(std::move(insertion)),
-        gate_(gate, period, insertion_.uses_axis()),
-        limiter_(limits, period),
-        force_scale_(force_scale),
-        fade_step_(period / fade_time) {
-    if (insertion_.size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
-    snapshot_.membrane_count = static_cast<std::uint32_t>(insertion_.size());
-  }
+  using Syringe = NeedleSyringe<Scalar, Storage>;
 
   /// Puts a syringe on the needle. Before the first tick.
   void set_syringe(const Syringe& syringe) { syringe_ = syringe; }
@@ -67,23 +53,51 @@ class ServoStepOf {
     if (state_ != ServoState::faulted) state_ = ServoState::disarmed;
   }
 
-  /// Clears a fault and the state of gate and model. The step is then disarmed.
+  static constexpr Scalar fade_time = Scalar(0.2);  ///< s
+
+  /// How much the motors have given and not yet recovered from, N^2 s. See ForceBudget. The next run must continue
+  /// with it.
+  Scalar spent() const noexcept { return limiter_.budget().spent(); }
+  void set_spent(Scalar spent) noexcept {
+    limiter_.set_spent(spent);
+    time_ = std::numeric_limits<double>::quiet_NaN();  // the time since the last run does not count as rest
+  }
+  /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
+  void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
+
+  /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
+  /// step is active.
+  Scalar thumb_force() const noexcept { return thumb_force_; }
+  const Snapshot& snapshot() const noexcept { return snapshot_; }
+  Scalar force_scale() const noexcept { return force_scale_; }
+  const std::optional<Syringe>& syringe() const noexcept { return syringe_; }
+  ServoState state() const noexcept { return state_; }
+  Fault fault() const noexcept { return fault_; }
+
+ protected:
+  /// model: the insertion behind this guard. The other arguments are those of ServoStepOf.
+  template <typename Insertion>
+  ServoGuard(const Insertion& model, Scalar period, const GateLimits& gate, const ForceLimits& limits,
+             Scalar force_scale)
+      : gate_(gate, period, model.uses_axis()),
+        limiter_(limits, period),
+        force_scale_(force_scale),
+        fade_step_(period / fade_time) {
+    if (model.size() > max_membranes || !(force_scale > 0 && force_scale <= 1)) std::abort();
+    snapshot_.membrane_count = static_cast<std::uint32_t>(model.size());
+  }
+
   void reset() noexcept {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
-    insertion_.reset();
     if (syringe_) syringe_->reset();
     gate_.reset();
     fault_ = Fault::none;
     state_ = ServoState::disarmed;
   }
 
-  /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
-  ///
-  /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
-  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
-  void resume(ServoStepOf& previous) noexcept {
-    insertion_.resume(previous.insertion_);
+  /// See ServoStepOf::resume().
+  void resume(const ServoGuard& previous) noexcept {
     if (syringe_ && previous.syringe_) syringe_->resume(*previous.syringe_);
     gate_.resume(previous.gate_);
     limiter_.resume(previous.limiter_);
@@ -97,18 +111,18 @@ class ServoStepOf {
     fade_ = 1;
     fade_starts_ = true;
   }
-  static constexpr Scalar fade_time = Scalar(0.2);  ///< s
 
-  /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.
-  const Snapshot& step(const DeviceSample& sample) noexcept {
+  /// One tick with the force of this model.
+  template <typename Insertion>
+  const Snapshot& step(Insertion& model, const DeviceSample& sample) noexcept {
     if (fault_ == Fault::none) fault_ = gate_.step(sample);
 
     Vector model_force = Vector::Zero(), force = Vector::Zero();
     if (fault_ == Fault::none) {
-      model_force = insertion_.step(to_vector(sample.position).template cast<Scalar>(),
-                                    to_vector(sample.axis).template cast<Scalar>().stableNormalized());
+      model_force = model.step(to_vector(sample.position).template cast<Scalar>(),
+                               to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite() ||
-          (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), insertion_))))
+          (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), model))))
         fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) {
@@ -116,7 +130,7 @@ class ServoStepOf {
       model_force.setZero();
     }
     if (state_ == ServoState::active && !gate_.held(sample)) state_ = ServoState::waiting;
-    if (state_ == ServoState::waiting && insertion_.outside() && gate_.held(sample)) {
+    if (state_ == ServoState::waiting && model.outside() && gate_.held(sample)) {
       state_ = ServoState::active;
       limiter_.reset();
     }
@@ -138,34 +152,11 @@ class ServoStepOf {
       faded_force_.setZero();
       fade_ = 0;
     }
-    record(sample, model_force, force);
+    record(model, sample, model_force, force);
     return snapshot_;
   }
 
-  /// How much the motors have given and not yet recovered from, N^2 s. See ForceBudget. The next run must continue
-  /// with it.
-  Scalar spent() const noexcept { return limiter_.budget().spent(); }
-  void set_spent(Scalar spent) noexcept {
-    limiter_.set_spent(spent);
-    time_ = std::numeric_limits<double>::quiet_NaN();  // the time since the last run does not count as rest
-  }
-  /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
-  void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
-
-  /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
-  /// step is active.
-  Scalar thumb_force() const noexcept { return thumb_force_; }
-  const Snapshot& snapshot() const noexcept { return snapshot_; }
-  Scalar force_scale() const noexcept { return force_scale_; }
-  const Insertion& insertion() const noexcept { return insertion_; }
-  const std::optional<Syringe>& syringe() const noexcept { return syringe_; }
-  ServoState state() const noexcept { return state_; }
-  Fault fault() const noexcept { return fault_; }
-
-  /// For save_state() and load_state() (state/archive.hpp). The snapshot stays that of this object's last tick.
-  /// A loaded step may be active: it gives force in its first tick.
   static void archive(auto& self, auto& state) {
-    Insertion::archive(self.insertion_, state);
     if (self.syringe_) Syringe::archive(*self.syringe_, state);
     BasicInputGate<Scalar>::archive(self.gate_, state);
     BasicForceLimiter<Scalar>::archive(self.limiter_, state);
@@ -184,7 +175,6 @@ class ServoStepOf {
       self.time_ = timed ? time : std::numeric_limits<double>::quiet_NaN();
   }
   void describe(auto& parameters) const {
-    insertion_.describe(parameters);
     parameters.flag(syringe_.has_value());
     if (syringe_) syringe_->describe(parameters);
     gate_.describe(parameters);
@@ -218,10 +208,12 @@ class ServoStepOf {
             wide(plunger.left())};
   }
 
-  void record(const DeviceSample& sample, const Vector& model_force, const Vector& force) noexcept {
+  template <typename Insertion>
+  void record(const Insertion& model, const DeviceSample& sample, const Vector& model_force,
+              const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
-    snapshot_.tip = to_array(insertion_.tip());
+    snapshot_.tip = to_array(model.tip());
     snapshot_.model_force = to_array(model_force);
     snapshot_.force = to_array(force);
     snapshot_.force_scale = force_scale_;
@@ -232,10 +224,9 @@ class ServoStepOf {
     snapshot_.commands = std::exchange(commands_, 0);
     snapshot_.state = state_;
     snapshot_.fault = fault_;
-    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) snapshot_.membranes[i] = record_of(insertion_.tick(i));
+    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) snapshot_.membranes[i] = record_of(model.tick(i));
   }
 
-  Insertion insertion_;
   std::optional<Syringe> syringe_;
   BasicInputGate<Scalar> gate_;
   BasicForceLimiter<Scalar> limiter_;
@@ -250,6 +241,61 @@ class ServoStepOf {
   Vector faded_force_{}, fade_offset_{};
   Scalar thumb_force_ = 0, thumb_offset_ = 0;
   Snapshot snapshot_{};
+};
+
+/// The servo step: input gate, model, force scale, force limits and the record of a tick.
+///
+/// Insertion: the BasicInsertion of a scene, an InsertionOf with your own laws and coupling, or any class that has what
+/// InsertionOf has. A tick is computed in its Scalar.
+template <typename Insertion>
+class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Insertion::StoredIn> {
+ public:
+  using Guard = ServoGuard<typename Insertion::Scalar, typename Insertion::StoredIn>;
+  using typename Guard::Scalar;
+
+  /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. force_scale: how much of the model's
+  /// force the device gives. The program aborts if it is not greater than 0 and at most 1, or if insertion has more
+  /// than max_membranes membranes.
+  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {},
+              Scalar force_scale = 1)
+      : Guard(insertion, period, gate, limits, force_scale), insertion_(std::move(insertion)) {}
+
+  /// Clears a fault and the state of gate and model. The step is then disarmed.
+  void reset() noexcept {
+    insertion_.reset();
+    Guard::reset();
+  }
+
+  /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
+  ///
+  /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
+  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
+  void resume(ServoStepOf& previous) noexcept {
+    insertion_.resume(previous.insertion_);
+    Guard::resume(previous);
+  }
+  /// The same for a step with a model of another kind. This model begins afresh: no membrane gives force until the tip
+  /// has been in front of it. Limits, budget, state, fault and number of the tick go on, and the force is faded.
+  void resume_run(const Guard& previous) noexcept { Guard::resume(previous); }
+
+  /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.
+  const Snapshot& step(const DeviceSample& sample) noexcept { return Guard::step(insertion_, sample); }
+
+  const Insertion& insertion() const noexcept { return insertion_; }
+
+  /// For save_state() and load_state() (state/archive.hpp). The snapshot stays that of this object's last tick.
+  /// A loaded step may be active: it gives force in its first tick.
+  static void archive(auto& self, auto& state) {
+    Insertion::archive(self.insertion_, state);
+    Guard::archive(self, state);
+  }
+  void describe(auto& parameters) const {
+    insertion_.describe(parameters);
+    Guard::describe(parameters);
+  }
+
+ private:
+  Insertion insertion_;
 };
 
 /// The servo step of a scene.

@@ -9,8 +9,7 @@ namespace {
 
 /// How much of the model's force the device of a scene gives.
 double scale_of(const Scene& scene) {
-  const double scale = scene.display.automatic ? automatic_force_scale(detail::model_of<double>(scene), ForceLimits{})
-                                               : scene.display.force_scale;
+  const double scale = force_scale(scene, detail::model_of<double>(scene), ForceLimits{});
   return std::max(scale, std::numeric_limits<double>::min());
 }
 

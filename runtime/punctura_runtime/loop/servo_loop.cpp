@@ -45,8 +45,8 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
     throw std::invalid_argument("the thumb needs a device of its own, not the needle's");
   settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
   settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
-  step_ = built(scene_);
-  force_scale_ = step_->force_scale();
+  step_ = built(scene_, settings_.model);
+  force_scale_ = step_->guard().force_scale();
   scene_.servo.rate = device_->info().rate;
   history_.resize(settings_.history);
   auto& [mutex, loops] = all_loops();
@@ -63,10 +63,10 @@ ServoLoop::~ServoLoop() {
   }
 }
 
-std::unique_ptr<ServoStep> ServoLoop::built(const Scene& scene) const {
+std::unique_ptr<AnyStep> ServoLoop::built(const Scene& scene, const StepMaker& model) const {
   Scene at_rate = scene;
   at_rate.servo.rate = device_->info().rate;
-  return std::make_unique<ServoStep>(build(at_rate, settings_.gate, settings_.limits));
+  return model(at_rate, settings_.gate, settings_.limits);
 }
 
 Scene ServoLoop::copy_scene() const {
@@ -96,9 +96,9 @@ void ServoLoop::start(double duration) {
     if (running_) return;
     running_ = true;
     last_begin_ = 0;
-    step_->set_spent(rested());
+    step_->guard().set_spent(rested());
     rest_counted_ = false;
-    if (ticks_ != 0 && step_->fault() == Fault::none)
+    if (ticks_ != 0 && step_->guard().fault() == Fault::none)
       ask(reset_bit);  // do not take the motion since the last run for one of this run
     over_ = false;
     silent_s_ = thumb_silent_s_ = 0;
@@ -171,8 +171,8 @@ void ServoLoop::end_run() noexcept {
   const std::lock_guard lock(between_ticks_);
   running_ = false;
   const double now = seconds();
-  if (last_begin_ != 0) step_->end(now - static_cast<double>(last_begin_) * 1e-9);
-  keep_spent(*device_, step_->spent(), now);
+  if (last_begin_ != 0) step_->guard().end(now - static_cast<double>(last_begin_) * 1e-9);
+  keep_spent(*device_, step_->guard().spent(), now);
   handover_.collect();
   take();
 }
@@ -198,7 +198,7 @@ void ServoLoop::stop_all() noexcept {
 
 /// Takes a new scene, between two ticks or while the loop does not run.
 void ServoLoop::take() noexcept {
-  if (ServoStep* next = handover_.take()) {
+  if (AnyStep* next = handover_.take()) {
     next->resume(*step_);
     handover_.retire(step_.release());
     step_.reset(next);
@@ -210,13 +210,14 @@ void ServoLoop::reset() noexcept {
   ask(reset_bit);
 }
 
-void ServoLoop::exchange(Scene scene) {
-  auto step = built(scene);
+void ServoLoop::exchange(Scene scene, StepMaker model) {
+  auto step = built(scene, model);
   scene.servo.rate = device_->info().rate;
   {
     const std::lock_guard lock(between_ticks_);
     scene_ = std::move(scene);
-    force_scale_ = step->force_scale();
+    settings_.model = std::move(model);
+    force_scale_ = step->guard().force_scale();
     handover_.offer(std::move(step));
     if (!running_) take();
   }
@@ -266,7 +267,8 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   if (settings_.thumb) in_scene.thumb_felt = settings_.thumb->force();
   const Snapshot& snapshot = step_->step(in_scene);
   if (settings_.thumb)
-    settings_.thumb->give(step_->thumb_force(), snapshot.state == ServoState::active && step_->syringe().has_value());
+    settings_.thumb->give(step_->guard().thumb_force(),
+                          snapshot.state == ServoState::active && step_->guard().syringe().has_value());
   remember(snapshot);
   latest_.write([&](Snapshot& to) { copy(snapshot, to); });
   for (auto& ring : listeners_) ring->push(snapshot);
@@ -285,7 +287,7 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
 
 /// A tick after the duration: no force, no record, until the device has stopped.
 Tick::Force ServoLoop::after_the_end(std::int64_t now) noexcept {
-  if (last_begin_ != 0) step_->end(static_cast<double>(now - last_begin_) * 1e-9);
+  if (last_begin_ != 0) step_->guard().end(static_cast<double>(now - last_begin_) * 1e-9);
   last_begin_ = 0;
   if (settings_.thumb) settings_.thumb->give(0, false);
   return {0, 0, 0};
@@ -293,12 +295,12 @@ Tick::Force ServoLoop::after_the_end(std::int64_t now) noexcept {
 
 /// The depth of the thumb on the plunger in this tick, m.
 double ServoLoop::thumb_depth(const DeviceSample& sample) noexcept {
-  if (!step_->syringe()) return 0;
+  if (!step_->guard().syringe()) return 0;
   if (settings_.thumb) return settings_.thumb->depth();
   const double wanted = wanted_thumb_.load(std::memory_order_relaxed);
   if (std::isnan(wanted)) return sample.thumb;
-  if (step_->fault() == Fault::none)
-    simulated_thumb_ = Thumb{}.step(simulated_thumb_, wanted, step_->syringe()->plunger().force(), period_);
+  if (step_->guard().fault() == Fault::none)
+    simulated_thumb_ = Thumb{}.step(simulated_thumb_, wanted, step_->guard().syringe()->plunger().force(), period_);
   return simulated_thumb_;
 }
 
@@ -314,8 +316,8 @@ void ServoLoop::obey() noexcept {
     simulated_thumb_ = 0;  // the reset fills the syringe
     remembered_ = 0;
   }
-  if (asked & arm_bit) step_->arm();
-  if (asked & pause_bit) step_->disarm();
+  if (asked & arm_bit) step_->guard().arm();
+  if (asked & pause_bit) step_->guard().disarm();
 }
 
 void ServoLoop::remember(const Snapshot& snapshot) noexcept {

@@ -1,4 +1,4 @@
-// Runs the servo step of a scene on a device.
+// Runs a servo step on a device.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura/device/placement.hpp"
-#include "punctura/scene/build.hpp"
 #include "punctura/syringe/thumb.hpp"
 #include "punctura_runtime/loop/histogram.hpp"
+#include "punctura_runtime/loop/step_maker.hpp"
 #include "punctura_runtime/loop/thumb_loop.hpp"
 #include "punctura_runtime/loop/tick_watch.hpp"
 #include "punctura_runtime/loop/watch_thread.hpp"
@@ -32,6 +32,7 @@ struct LoopSettings {
   std::size_t history = 1000;                      ///< snapshots kept before a fault
   std::shared_ptr<ThumbLoop> thumb{};              ///< a second device, which holds the plunger of the scene's syringe
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< tests replace it
+  StepMaker model{};                               ///< the scene's, or any other
 };
 
 /// Statistics of a loop, over all its runs.
@@ -97,14 +98,16 @@ class ServoLoop {
   }
 
   /// Changes the scene, also while running: builds it here; the next tick takes it and fades it in. Throws SceneError
-  /// and then changes nothing.
-  void exchange(Scene scene);
+  /// and then changes nothing. model: from now on; without it, the present one stays.
+  void exchange(Scene scene) { exchange(std::move(scene), settings_.model); }
+  void exchange(Scene scene, StepMaker model);
 
   Device& device() noexcept { return *device_; }
   ThumbLoop* thumb() noexcept { return settings_.thumb.get(); }
   const Scene& scene() const noexcept { return scene_; }
   const GateLimits& gate() const noexcept { return settings_.gate; }
   const ForceLimits& limits() const noexcept { return settings_.limits; }
+  const StepMaker& model() const noexcept { return settings_.model; }
   Scene copy_scene() const;
   double force_scale() const noexcept { return force_scale_; }  ///< of scene(): how much of the model's force is given
   /// The force budget that the motors have spent by the next start(), N^2 s: see ForceBudget. Not while the loop runs.
@@ -128,7 +131,7 @@ class ServoLoop {
   void obey() noexcept;
   void remember(const Snapshot& snapshot) noexcept;
   void ask(std::uint32_t bit) noexcept { asked_.fetch_or(bit, std::memory_order_release); }
-  std::unique_ptr<ServoStep> built(const Scene& scene) const;
+  std::unique_ptr<AnyStep> built(const Scene& scene, const StepMaker& model) const;
 
   static constexpr std::uint32_t arm_bit = 1, pause_bit = 2, reset_bit = 4;
   static constexpr std::int64_t never_ = std::numeric_limits<std::int64_t>::max();
@@ -145,7 +148,7 @@ class ServoLoop {
   bool rest_counted_ = false;  ///< the time since the last run has been counted as rest
 
   // Used by the ticking thread; between runs, by the holder of between_ticks_.
-  std::unique_ptr<ServoStep> step_;
+  std::unique_ptr<AnyStep> step_;
   std::int64_t last_begin_ = 0;
   std::vector<Snapshot> history_;
   std::uint64_t remembered_ = 0;
@@ -159,7 +162,7 @@ class ServoLoop {
   std::atomic<double> wanted_thumb_{unknown};  ///< N; NaN: no simulated thumb
   std::atomic<bool> frozen_{false};            ///< a fault is latched: history_ is no longer written
   std::atomic<std::uint64_t> ticks_{0}, late_{0};
-  Handover<ServoStep> handover_;
+  Handover<AnyStep> handover_;
   TripleBuffer<Snapshot> latest_;
   std::vector<std::unique_ptr<SnapshotRing>> listeners_;
   Histogram period_times_, compute_times_;

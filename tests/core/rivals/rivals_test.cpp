@@ -137,6 +137,26 @@ TEST_CASE("a servo step runs each rival behind the same gate and limits, without
   });
 }
 
+TEST_CASE("an automatic force scale follows from the rivals' forces, not from K06's") {
+  Scene scene = rival_scene();
+  scene.display.automatic = true;
+  const auto scale = [&](double friction) {
+    return build_rivals(scene, std::vector{AnyRival(RivalRun<Dahl>{{1e4, friction, 0}, {}})}).force_scale();
+  };
+  const double n = static_cast<double>(scene.membranes.size());
+  CHECK(scale(0.01) == 1);
+  CHECK(scale(2) * n * 2 == doctest::Approx(automatic_share * lasting_force({})).epsilon(0.01));
+}
+
+TEST_CASE("rivals are one, or one for each membrane") {
+  const Scene scene = rival_scene();
+  std::vector<Problem> problems;
+  CHECK(
+      !try_build_rivals(scene, std::vector<AnyRival>(scene.membranes.size() + 1, *AnyRival::named("dahl")), problems));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].path == "rivals");
+}
+
 TEST_CASE("sub-steps give rivals the positions between two ticks") {
   Scene often = rival_scene(), seldom = often;
   often.servo.low_pass = seldom.servo.low_pass = 0;
