@@ -107,7 +107,7 @@ constexpr auto numbers_of(const std::tuple<FieldOf<Owner, Value>...>& rows) {
 
 /// The field of a member. A member that is not in the table does not compile.
 template <typename Rows, typename Owner>
-consteval FieldOf<Owner> field_of(const Rows& rows, double Owner::* member) {
+consteval const FieldOf<Owner>& field_of(const Rows& rows, double Owner::* member) {
   for (const auto& field : rows)
     if (field.member == member) return field;
   std::abort();
