@@ -42,7 +42,8 @@ def score(
     """
     from punctura.exercise import Result, load_exercise
     from punctura.exercise import score as judge
-    from punctura.exercise.words import state, tenths
+    from punctura.exercise.quantities import tenths
+    from punctura.exercise.words import state
     from punctura.live import felt_force
 
     wanted = load_exercise(exercise)

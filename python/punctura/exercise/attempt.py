@@ -12,21 +12,18 @@ from punctura import Scene, __version__, ticks
 from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
-from punctura.exercise.achievements import Achievement, FeelJudge, StayJudge, achievement_of
-from punctura.exercise.coach import Coach
+from punctura.exercise.coach.coach import Coach
+from punctura.exercise.course import asked_push, course_of, felt_membranes, judges_plunger
 from punctura.exercise.exercise import Exercise
-from punctura.exercise.limit import Limit, Moment, first_of, moment
-from punctura.exercise.limits import LineJudge, TimeJudge, limit_of
-from punctura.exercise.losses import felt_membranes
+from punctura.exercise.goals import GOALS
+from punctura.exercise.judge import Achievement, Limit
 from punctura.exercise.measures import Measures
-from punctura.exercise.plunger import PlungerJudge, judges_plunger, need_syringe
+from punctura.exercise.moment import Moment, first_of, moment
 from punctura.exercise.remark import Coaching
 from punctura.exercise.result import GoalState, Result, Status
-from punctura.exercise.space import need_membranes, space_of
 from punctura.exercise.stays import Stays
-from punctura.exercise.stop import StopJudge
 from punctura.exercise.ticks import Flags, Geometry, JudgedTicks
-from punctura.exercise.yields import Yields, asked_push
+from punctura.exercise.yields import Yields
 
 
 class Attempt:
@@ -43,14 +40,11 @@ class Attempt:
         Raises ConfigurationError if the exercise does not fit the scene.
         """
         self.exercise, self.scene = exercise, scene
-        need_membranes(exercise.file, scene)
-        need_syringe(exercise.file, scene)
-        self._space = space_of(exercise.file, scene)
-        self._judges: list[Limit | Achievement] = [
-            limit_of(goal, exercise.file, self._space, scene)
-            or achievement_of(goal, self._space, exercise.file.space.behind, scene)
-            for goal in exercise.goals
-        ]
+        course = course_of(exercise.file, scene)
+        self._space = course.target
+        self._judges = [goal.judge(course) for goal in exercise.goals]
+        kinds = list(GOALS)
+        by_kind = sorted(zip(exercise.goals, self._judges, strict=True), key=lambda one: kinds.index(one[0].kind))
         self._limits = [judge for judge in self._judges if isinstance(judge, Limit)]
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
@@ -66,7 +60,7 @@ class Attempt:
             _after_yield(self._limits),
             judges_plunger(exercise.file),
         )
-        self._coach = Coach(exercise.file, scene, self._space)
+        self._coach = Coach(exercise.file, scene, self._space, [judge for _, judge in by_kind])
         self._finder = EventFinder(scene, scene.servo.rate)
         self._events: list[Event] = []
         self._begun = False
@@ -201,43 +195,34 @@ class Attempt:
     @property
     def status(self) -> Status:
         """The present instruction, the goals and the clock."""
-        stay = max((one for one in self._achievements if isinstance(one, StayJudge)), key=_seconds, default=None)
+        stay = max(self._achievements, key=lambda one: one.seconds, default=None)
         return Status(
             instruction=self._instruction(),
             goals=self.goals,
             held=stay.held if stay else 0.0,
             hold=stay.seconds if stay else 0.0,
             time=self._measures.elapsed,
-            time_limit=min((limit.seconds for limit in self._limits if isinstance(limit, TimeJudge)), default=None),
+            time_limit=min((one.time_limit for one in self._limits if one.time_limit is not None), default=None),
         )
 
     def _instruction(self) -> str:
         if self.over:
             return " ".join(self._reasons(ended=False))
-        if any(isinstance(one, FeelJudge) and one.met is None and one.empty for one in self._achievements):
-            return words.emptied(self._space)
-        for line in self._limits if self._measures.arrival is None else []:
-            if isinstance(line, LineJudge) and abs(line.aim or 0.0) > line.within:
-                return words.aside(line, self._inside)
+        arrived = self._measures.arrival is not None
+        urgent = [judge.alarm(self._space) for judge in self._judges]
+        if not arrived:
+            urgent += [limit.aiming(self._inside) for limit in self._limits]
+        if any(urgent):
+            return next(filter(None, urgent))
         if self._measures.entries == 0:
             return self.exercise.instruction
         if self._too_deep:
             return words.too_deep(self.exercise.file.space)
-        stops = [limit for limit in self._limits if isinstance(limit, StopJudge)]
-        for judge in self._achievements:
-            if judge.met is not None:
-                continue
-            if isinstance(judge, FeelJudge) and self._measures.arrival is not None:
-                return words.push_again(judge)
-            if not isinstance(judge, StayJudge):
-                return f"{judge.text}."
-            if judge.staying:
-                return f"{judge.text}. Hold still."
-            # Whoever must still push is not told to stay.
-            if self._measures.arrival is None:
-                return self.exercise.instruction
-            return next((words.waiting(limit) for limit in stops if limit.waits_for == "pop"), f"{judge.text}.")
-        return next((words.waiting(limit) for limit in stops if limit.waits_for), self.exercise.instruction)
+        for one in self._achievements:
+            if one.met is None:
+                pop = next((limit.waiting() for limit in self._limits if limit.waits_for == "pop"), "")
+                return one.instruction(arrived, self.exercise.instruction, pop)
+        return next(filter(None, (limit.waiting() for limit in self._limits)), self.exercise.instruction)
 
     def _reasons(self, ended: bool) -> list[str]:
         first = self.scene.membranes[0].name
@@ -245,11 +230,11 @@ class Attempt:
             return [self._invalid]
         if self._decision is not None and not self._passed:
             now = [limit for limit in self._limits if limit.state(self._decision, False) == "missed"]
-            return [words.missed(one, cast(Moment, one.missed), self._measures, self._space) for one in now]
+            return [one.why_missed(cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
             lost = self._measures.unfelt(ended)
             said = words.passed(self._achievements, self._measures, self._space, first)
-            said += [words.not_measured(one, self._decision, first) for one in self._unmeasured]
+            said += [one.why_not_measured(self._decision, first) for one in self._unmeasured]
             return said + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
@@ -257,7 +242,7 @@ class Attempt:
     def _coaching(self) -> Coaching:
         if self._invalid or self._measures.entries == 0:
             return Coaching()
-        return self._coach.words(self._passed, self._decision, self._limits, self._achievements, self._measures)
+        return self._coach.words(self._passed, self._decision, self._measures)
 
     def finish(self, person: str = "", recording: str = "", date: datetime | None = None, group: str = "") -> Result:
         """The present result; an undecided attempt counts as given up. date: of the attempt; default now."""
@@ -285,19 +270,14 @@ class Attempt:
         )
 
 
-def _seconds(stay: StayJudge) -> float:
-    return stay.seconds
-
-
 def _windows(limits: list[Limit]) -> dict[int, float]:
-    """By membrane: the time after a pop in which the overshoot is measured, s. The stop_after_pop goals set it."""
+    """By membrane: the time after a pop in which the overshoot is measured, s; the longest that a limit asks for."""
     windows: dict[int, float] = {}
-    for limit in limits:
-        if isinstance(limit, StopJudge):
-            windows[limit.index] = max(limit.seconds, windows.get(limit.index, 0.0))
+    for index, seconds in filter(None, (limit.overshoot for limit in limits)):
+        windows[index] = max(seconds, windows.get(index, 0.0))
     return windows
 
 
 def _after_yield(limits: list[Limit]) -> float:
     """The time after the plunger gives way in which the injected volume is measured, s."""
-    return max((limit.seconds for limit in limits if isinstance(limit, PlungerJudge)), default=1.0)
+    return max((limit.after_yield for limit in limits if limit.after_yield is not None), default=1.0)

@@ -16,11 +16,12 @@ from pydantic import BaseModel, ValidationError
 from punctura import Scene
 from punctura.errors import MISSING, Problem
 from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
-from punctura.exercise.depths import Table, unreachable
+from punctura.exercise.depths import unreachable
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.limits import across
-from punctura.exercise.problems import GOALS, located, problem
-from punctura.exercise.schema import ExerciseFile, FeelPlunger, Space, Start, StopPlunger
+from punctura.exercise.fields import Space, Start
+from punctura.exercise.goals import GOALS, Given
+from punctura.exercise.problems import located, problem
+from punctura.exercise.schema import ExerciseFile
 from punctura.files.tables import Location
 from punctura.files.toml import Tables
 
@@ -28,9 +29,9 @@ from punctura.files.toml import Tables
 class Sound(NamedTuple):
     """The values that are valid by themselves, and the defaults of missing keys."""
 
-    start: Table
-    space: Table
-    goals: dict[int, Table]  # by index; goals of an unknown kind are left out
+    start: Given
+    space: Given
+    goals: dict[int, Given]  # by index; goals of an unknown kind are left out
 
 
 def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | None, list[Problem]]:
@@ -46,15 +47,13 @@ def check_tables(tables: Tables, scene: Scene | None) -> tuple[ExerciseFile | No
     problems += _kinds(tables.get("goal"), sound.goals)
     problems += _start(sound.start, scene)
     problems += _names(sound, scene)
-    problems += _lines(sound, scene)
-    problems += _plunger(sound, scene)
-    problems += _depths(sound)
+    problems += _goals(sound, scene)
     problems += unreachable(sound.space, sound.goals, scene)
     return (None if problems else file), problems
 
 
 def _sound(tables: Tables, unsound: set[Location]) -> Sound:
-    def values(model: type[BaseModel], given: object, place: Location) -> Table:
+    def values(model: type[BaseModel], given: object, place: Location) -> Given:
         if not isinstance(given, dict):
             return {}
         bad = {where[len(place)] for where in unsound if where[: len(place)] == place and len(where) > len(place)}
@@ -74,7 +73,7 @@ def _sound(tables: Tables, unsound: set[Location]) -> Sound:
     return Sound(start, space, goals)
 
 
-def _kinds(given: object, goals: dict[int, Table]) -> Iterator[Problem]:
+def _kinds(given: object, goals: dict[int, Given]) -> Iterator[Problem]:
     if not isinstance(given, list) or not given or len(goals) < len(given):
         return
     if not any(goal["kind"] in ("reach", "stay") for goal in goals.values()):
@@ -83,7 +82,7 @@ def _kinds(given: object, goals: dict[int, Table]) -> Iterator[Problem]:
         )
 
 
-def _start(start: Table, scene: Scene | None) -> Iterator[Problem]:
+def _start(start: Given, scene: Scene | None) -> Iterator[Problem]:
     position = start.get("position_mm")
     if position is not None:
         away = math.hypot(*position)
@@ -121,32 +120,13 @@ def _in_front(position_mm: list[float], scene: Scene) -> Iterator[Problem]:
         yield Problem("start.position_mm", position_mm, reason)
 
 
-def _lines(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
-    """The direction of an on_line goal must have a length, and must not be upright."""
+def _goals(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
     for i, goal in sound.goals.items():
-        along = goal.get("along")
-        if along is None:
-            continue
-        if not LEAST_HEADING <= math.hypot(*along) <= MOST_HEADING:
-            reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
-            yield Problem(f"goal[{i}].along", along, reason)
-        elif scene is not None and np.isnan(across(scene, along)).any():
-            yield Problem(f"goal[{i}].along", along, "must not be parallel to the first membrane's normal")
-
-
-def _plunger(sound: Sound, scene: Scene | None) -> Iterator[Problem]:
-    """A goal that judges the plunger needs a syringe."""
-    for i, goal in sound.goals.items():
-        if scene is not None and scene.syringe is None and GOALS[goal["kind"]] in (FeelPlunger, StopPlunger):
+        kind = GOALS[goal["kind"]]
+        for key, value, reason in kind.problems(goal, sound.space, scene):
+            yield Problem(f"goal[{i}].{key}", value, reason)
+        if kind.needs_syringe and scene is not None and scene.syringe is None:
             yield Problem(f"goal[{i}].kind", goal["kind"], "needs a scene with a syringe: its file has no [syringe]")
-
-
-def _depths(sound: Sound) -> Iterator[Problem]:
-    """A depth goal without a depth means the end of the space."""
-    for i, goal in sound.goals.items():
-        given = (goal.get("at_most_mm", 0.0), sound.space.get("deepest_mm", 0.0))
-        if goal["kind"] == "depth" and given == (None, None):
-            yield Problem(f"goal[{i}].at_most_mm", MISSING, "is needed: the space has no deepest_mm")
 
 
 def _names(sound: Sound, scene: Scene | None) -> Iterator[Problem]:

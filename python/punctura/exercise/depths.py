@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, TypeAlias
 
 import numpy as np
 
 from punctura import Scene
 from punctura.errors import Problem
 from punctura.exercise.bounds import LEAST_MM
+from punctura.exercise.goals import Given
 
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
 ROUNDING_MM = 1e-9  # rounding error of sums and differences of decimal numbers
 
-Table: TypeAlias = dict[str, Any]  # a table of an exercise file with only the values that are valid by themselves
 
-
-def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -> Iterator[Problem]:
+def unreachable(space: Given, goals: Mapping[int, Given], scene: Scene | None) -> Iterator[Problem]:
     """Problems: a depth behind the space's end, and a space that is too narrow.
 
     Between membranes that are not parallel, any depth is allowed.
@@ -52,7 +50,7 @@ def unreachable(space: Table, goals: Mapping[int, Table], scene: Scene | None) -
             yield Problem(f"goal[{i}].depth_mm", depth, f"must be less than {end:g} mm, where the space ends ({by})")
 
 
-def _too_narrow(space: Table, begins: float, end: float, by: str) -> Problem:
+def _too_narrow(space: Given, begins: float, end: float, by: str) -> Problem:
     wide = f"must be at least {LEAST_MM:g} mm wide"
     if end < LEAST_MM:
         place = f"begins {end:.4g} mm behind" if end > 0 else "does not begin behind"
@@ -62,7 +60,7 @@ def _too_narrow(space: Table, begins: float, end: float, by: str) -> Problem:
     return Problem("space.depth_mm", begins, reason)
 
 
-def space_end_mm(space: Table, scene: Scene | None) -> tuple[float, str]:
+def space_end_mm(space: Given, scene: Scene | None) -> tuple[float, str]:
     """Distance from the far face of `behind` to the end of the space, mm, and its cause; infinite without an end."""
     ends = [(np.inf, "")]
     if space.get("deepest_mm") is not None:
@@ -73,7 +71,7 @@ def space_end_mm(space: Table, scene: Scene | None) -> tuple[float, str]:
     return min(ends)
 
 
-def _gap_mm(space: Table, scene: Scene) -> float | None:
+def _gap_mm(space: Given, scene: Scene) -> float | None:
     """Distance from the far face of `behind` to the near face of `in_front_of`, mm.
 
     None if the scene does not have both membranes, or if they are not parallel.

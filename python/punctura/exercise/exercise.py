@@ -10,7 +10,8 @@ import numpy as np
 
 from punctura import Scene
 from punctura.errors import Problem
-from punctura.exercise.schema import AnyGoal, ExerciseFile, Reach
+from punctura.exercise.goals import AnyGoal, Reach
+from punctura.exercise.schema import ExerciseFile
 
 Triple = tuple[float, float, float]
 
@@ -58,7 +59,7 @@ class Exercise:
     def goal_depth(self) -> float:
         """Depth behind the first membrane's far face to reach, m: of the reach goal, or of the space."""
         reach = next((goal for goal in self.file.goal if isinstance(goal, Reach)), None)
-        return self.space_depth[0] if reach is None or reach.depth_mm is None else reach.depth_mm * 1e-3
+        return self.space_depth[0] if reach is None or reach.depth is None else reach.depth
 
     def membrane(self, name: str) -> int:
         """A membrane's index in the scene."""

@@ -11,18 +11,7 @@ from punctura import Scene
 from punctura.events import Event
 from punctura.exercise.loss import needed_drop
 from punctura.exercise.result import Loss
-from punctura.exercise.schema import ExerciseFile, StopAfterPop
-from punctura.exercise.space import place_of
 from punctura.exercise.ticks import JudgedTicks
-
-
-def felt_membranes(file: ExerciseFile, scene: Scene) -> set[int]:
-    """The membranes whose loss of resistance the student must feel, by index."""
-    stops = {goal.membrane for goal in file.goal if isinstance(goal, StopAfterPop)}
-    space = file.space
-    felt = space.sign is None if space.sign_is_felt is None else space.sign_is_felt
-    names = stops | ({space.behind} if felt else set())
-    return {place_of(scene, name) for name in names}
 
 
 @dataclass

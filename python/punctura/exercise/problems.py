@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from punctura.errors import MISSING, Problem
-from punctura.exercise.schema import AnyGoal, ExerciseFile, Space, Start
+from punctura.exercise.fields import Space, Start
+from punctura.exercise.goals import GOALS
+from punctura.exercise.schema import ExerciseFile
 from punctura.files.tables import Location, missing, path_of, shown, unknown_key
 from punctura.files.units import split_key
 
-GOALS: dict[str, type[BaseModel]] = {
-    get_args(goal.model_fields["kind"].annotation)[0]: goal for goal in get_args(get_args(AnyGoal)[0])
-}
 _TABLES: dict[str, type[BaseModel]] = {"start": Start, "space": Space}
 _HEADS = {"start": "[start]", "space": "[space]", "goal": "[[goal]]"}
 _UNITS = {"seconds": "s", "at_most_mm_per_s": "mm/s"}  # for keys that do not end in their unit

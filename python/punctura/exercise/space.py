@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from punctura import Scene
-from punctura.errors import ConfigurationError, Problem
-from punctura.exercise.schema import ExerciseFile, Reach, Stay
 from punctura.exercise.ticks import ROUNDING, Flags, JudgedTicks
 
 
@@ -60,42 +58,6 @@ class TargetSpace:
         return self.sign or f"you had reached {self.name}"
 
 
-def need_membranes(file: ExerciseFile, scene: Scene) -> None:
-    """Raises ConfigurationError if the running scene does not have all membranes of the exercise."""
-    needed = [file.space.behind, file.space.in_front_of, *(getattr(goal, "membrane", None) for goal in file.goal)]
-    names = [placed.name for placed in scene.membranes]
-    lacking = list(dict.fromkeys(repr(name) for name in needed if name is not None and name not in names))
-    if lacking:
-        reason = f"has no membrane {' and no '.join(lacking)}, which the exercise needs; it has {', '.join(names)}"
-        raise ConfigurationError([Problem("scene", scene.name, reason)])
-
-
 def place_of(scene: Scene, name: str) -> int:
     """The index of an existing membrane in the running scene."""
     return [placed.name for placed in scene.membranes].index(name)
-
-
-def space_of(file: ExerciseFile, scene: Scene) -> TargetSpace:
-    """The space in the running scene, which must have its membranes."""
-    space = file.space
-    reach = next((goal for goal in file.goal if isinstance(goal, Reach)), None)
-    stay_whole = any(goal.whole_tip for goal in file.goal if isinstance(goal, Stay))
-    if not any(isinstance(goal, Stay) for goal in file.goal):
-        stay_whole = reach is not None and reach.whole_tip
-    return TargetSpace(
-        name=space.name,
-        sign=space.sign or "",
-        behind=place_of(scene, space.behind),
-        in_front_of=None if space.in_front_of is None else place_of(scene, space.in_front_of),
-        begins=space.depth_mm * 1e-3,
-        ends=np.inf if space.deepest_mm is None else space.deepest_mm * 1e-3,
-        press=space.press_mm * 1e-3,
-        arrive_whole=stay_whole if reach is None else reach.whole_tip,
-        arrive_depth=depth_of(reach),
-        stay_whole=stay_whole,
-    )
-
-
-def depth_of(goal: Reach | None) -> float | None:
-    """The goal's depth behind the far face, m; None if it only asks for the space."""
-    return None if goal is None or goal.depth_mm is None else goal.depth_mm * 1e-3

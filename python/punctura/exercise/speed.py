@@ -8,6 +8,8 @@ from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
 
 _TICK_S = 1e-9  # rounding of times
 
+PAUSE_SPEED = 0.5e-3  # m/s; a slower needle stands still
+
 
 class MeanSpeed:
     """Takes the ticks of an attempt, in batches of any size."""

@@ -11,7 +11,8 @@ from punctura._core import tip_length
 from punctura.errors import MISSING, Problem
 from punctura.exercise.depths import space_end_mm
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.schema import ExerciseFile, Reach, Stay
+from punctura.exercise.goals import Reach, Stay
+from punctura.exercise.schema import ExerciseFile
 
 
 def tip_warnings(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:

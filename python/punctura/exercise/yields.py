@@ -6,20 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from punctura.exercise.schema import ExerciseFile, FeelPlunger
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.thumb_so_far import ThumbSoFar
 from punctura.exercise.ticks import JudgedTicks
 
-# Both are illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
+# Illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
 FLOW = 0.1e-6  # m^3/s, from which the plunger gives way
-LEAST_PUSH_N = 0.5  # a thumb that only rests on the plunger feels no loss; a feel_plunger goal sets its own
-
-
-def asked_push(file: ExerciseFile) -> float:
-    """The force with which the thumb must push when the point comes out behind the membrane, N."""
-    asked = [goal.at_least_N for goal in file.goal if isinstance(goal, FeelPlunger)]
-    return min(asked, default=LEAST_PUSH_N)
 
 
 class Yields:

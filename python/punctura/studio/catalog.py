@@ -20,7 +20,7 @@ from punctura.exercise import (
     load_exercise,
     thumb_cannot_show,
 )
-from punctura.exercise.schema import OnLine
+from punctura.exercise.goals import OnLine
 from punctura.scene import load_scene, scene_names
 from punctura.studio.loaded import problem_parts
 from punctura.studio.names import BadName, safe_name

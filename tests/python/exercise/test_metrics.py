@@ -8,7 +8,7 @@ import pytest
 from attempts import HEAD, goal, ideal, judged, of_positions
 from punctura._core import Limit
 from punctura.exercise import load_exercise
-from punctura.exercise.words import tenths
+from punctura.exercise.quantities import tenths
 
 SCENE = pn.load_scene("venipuncture")  # the skin at 0, 1.2 mm thick; walls at -4.81 and -8.22, 0.4 mm thick
 TIP = 0.8e-3 / math.tan(math.radians(11))  # m

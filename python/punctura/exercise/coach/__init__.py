@@ -1,5 +1,1 @@
 """The coach: what went well in an attempt, and what to change next time, from measured numbers (docs/exercises.md)."""
-
-from punctura.exercise.coach.coach import Coach
-
-__all__ = ["Coach"]

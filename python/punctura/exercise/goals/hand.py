@@ -1,0 +1,212 @@
+"""Goals about how the needle is moved: entry_angle, speed, no_pause, peak_force, time_limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from punctura.events import Event
+from punctura.exercise.coach.seen import Seen
+from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance
+from punctura.exercise.goals.goal import Course, Goal
+from punctura.exercise.judge import Limit, SoFar
+from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.quantities import speed
+from punctura.exercise.remark import Remark
+from punctura.exercise.space import TargetSpace
+from punctura.exercise.speed import PAUSE_SPEED, MeanSpeed
+from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks
+
+ROUNDING_RAD = 1e-9
+SPEED_MEAN_S = 0.1  # over which a speed is measured: a period of tremor, or nearly
+PAUSE_MEAN_S = 0.25  # over which a speed is measured: longer than a period of tremor
+
+
+class EntryAngle(Goal):
+    """At each entry into the first membrane, the needle has this angle to its surface."""
+
+    kind: Literal["entry_angle"]
+    angle_deg: Angle | None = None  # default: the angle of the start
+    within_deg: Tolerance
+
+    def judge(self, course: Course) -> AngleJudge:
+        asked = course.start.angle_deg if self.angle_deg is None else self.angle_deg
+        return AngleJudge(self, asked, course.scene.membranes[0].name)
+
+    @property
+    def entry_deg(self) -> float | None:
+        return self.angle_deg
+
+
+class AngleJudge(Limit):
+    """Judges each entry into the first membrane."""
+
+    def __init__(self, goal: EntryAngle, asked_deg: float, name: str) -> None:
+        super().__init__(goal.text or f"Enter the {name} at {asked_deg:g} degrees, within {goal.within_deg:g} degrees")
+        self.asked_deg, self.within_deg = asked_deg, goal.within_deg
+        self.entered: float | None = None  # rad, of the first wrong entry
+        self._first: Moment | None = None
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        for event in events:
+            if event.what != "touch" or event.membrane != 0:
+                continue
+            when = Moment(event.tick, event.time)
+            self._first = self._first or when
+            angle = float(ticks.angle[np.searchsorted(ticks.tick, event.tick)])
+            if not math.isfinite(angle):
+                self.unseen = self.unseen or when
+            elif abs(angle - math.radians(self.asked_deg)) > math.radians(self.within_deg) + ROUNDING_RAD:
+                self.entered = angle if self.missed is None else self.entered
+                self.missed = self.missed or when
+
+    def measured(self, until: Moment | None) -> bool:
+        return by(self._first, until) and super().measured(until)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        entered = math.degrees(self.entered or 0.0)
+        return f"You entered at {entered:.0f} degrees; {self.asked_deg:g} are asked, within {self.within_deg:g}."
+
+
+class MostSpeed(Goal):
+    """In tissue, the point never moves in faster than this."""
+
+    kind: Literal["speed"]
+    at_most_mm_per_s: Speed
+
+    def judge(self, course: Course) -> SpeedJudge:
+        return SpeedJudge(self)
+
+
+class SpeedJudge(Limit):
+    """Judges the mean speed of the last 0.1 s in the tissue, along the needle."""
+
+    def __init__(self, goal: MostSpeed) -> None:
+        super().__init__(goal.text or f"Push in with no more than {goal.at_most_mm_per_s:g} mm/s")
+        self.at_most = goal.at_most_mm_per_s * 1e-3
+        self._speed = MeanSpeed(SPEED_MEAN_S)
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.tip.sum(axis=1)))
+        moved, _ = self._speed.add(ticks)
+        self._miss(ticks, np.einsum("ij,ij->i", moved, ticks.held) > self.at_most)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"You pushed in faster than {self.at_most * 1e3:g} mm/s."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        fast = seen.trace.last.speed
+        text = f"You moved in at {speed(fast)}; {speed(self.at_most)} are allowed: push more slowly."
+        yield Remark(about="speed", text=text, numbers={"speed_m_s": fast, "allowed_m_s": self.at_most})
+
+
+class NoPause(Goal):
+    """On the way from the first contact to the space, the needle never stands still for so long."""
+
+    kind: Literal["no_pause"]
+    seconds: Seconds = 1.0
+
+    def judge(self, course: Course) -> PauseJudge:
+        return PauseJudge(self, course.target)
+
+
+class PauseJudge(Limit):
+    """Judges the way from first contact to arrival. A late page is no pause, and for more than 1 s no measurement."""
+
+    def __init__(self, goal: NoPause, space: TargetSpace) -> None:
+        super().__init__(goal.text or f"Do not stand still for {goal.seconds:g} s on the way to {space.name}")
+        self.seconds = goal.seconds
+        self._space, self._speed = space, MeanSpeed(PAUSE_MEAN_S)
+        self._arrived = False
+        self._still = 0.0  # s, of the present pause
+        self._before: float | None = None  # time of the last tick
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.tip.sum(axis=1)))
+        moved, known = self._speed.add(ticks)
+        arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
+        self._arrived = bool(arrived[-1])
+        on_the_way = known & ~arrived
+        if self.gone is None:
+            self.gone = first_of(ticks, on_the_way & (ticks.age > GONE_S))
+        slow = on_the_way & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & (ticks.age <= LATE_S)
+        step = np.diff(ticks.time, prepend=ticks.time[0] if self._before is None else self._before)
+        self._before = float(ticks.time[-1])
+        total = self._still + np.cumsum(np.where(slow, step, 0.0))
+        since = np.maximum.accumulate(np.where(slow, 0.0, total))  # what was counted before the present pause
+        self._still = float(total[-1] - since[-1])
+        self._miss(ticks, slow & (total - since >= self.seconds - PAUSE_MEAN_S))
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"You stood still for {self.seconds:g} s before you reached {space.name}."
+
+
+class PeakForce(Goal):
+    """The model's total force stays at or below this."""
+
+    kind: Literal["peak_force"]
+    at_most_N: Newtons
+
+    def judge(self, course: Course) -> ForceJudge:
+        return ForceJudge(self)
+
+
+class ForceJudge(Limit):
+    def __init__(self, goal: PeakForce) -> None:
+        super().__init__(goal.text or f"Push with no more than {goal.at_most_N:g} N")
+        self.at_most = goal.at_most_N
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        self._watch(ticks, np.isfinite(ticks.force))
+        self._miss(ticks, ticks.force > self.at_most)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"You pushed with more than {self.at_most:g} N."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        peak = seen.metrics.peak_force
+        text = (
+            f"You pushed with {seen.newtons(peak)}; {self.at_most:.2f} N are allowed: push more gently, and stop as "
+            "soon as a wall gives way."
+        )
+        yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": self.at_most})
+
+    def praise(self, seen: Seen) -> Iterator[Remark]:
+        peak = seen.metrics.peak_force
+        text = f"You never pushed with more than {seen.newtons(peak)}; {self.at_most:.2f} N are allowed."
+        yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": self.at_most})
+
+
+class TimeLimit(Goal):
+    """Everything is finished within this time after the first contact."""
+
+    kind: Literal["time_limit"]
+    seconds: Seconds
+
+    def judge(self, course: Course) -> TimeJudge:
+        return TimeJudge(self)
+
+
+class TimeJudge(Limit):
+    """Uses the ticks' own times, so lost ticks do not stop the time."""
+
+    def __init__(self, goal: TimeLimit) -> None:
+        super().__init__(goal.text or f"Finish within {goal.seconds:g} s of the first contact")
+        self.time_limit: float = goal.seconds
+        self._began: Moment | None = None
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        if self._began is None:
+            touches = (Moment(e.tick, e.time) for e in events if e.what == "touch" and e.membrane == 0)
+            self._began = next(touches, None)
+        if self._began is not None:
+            self._miss(ticks, ticks.time - self._began.time > self.time_limit)
+
+    def measured(self, until: Moment | None) -> bool:
+        return self._began is not None and (until is None or self._began.tick <= until.tick)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"The time ran out {self.time_limit:g} s after the first contact."

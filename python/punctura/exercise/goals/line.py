@@ -1,0 +1,131 @@
+"""The goal `on_line`: the point is not far to the side of a line while it is in the space."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura import Scene
+from punctura._core import grazing_cosine
+from punctura.errors import Problem
+from punctura.events import Event
+from punctura.exercise.bounds import LEAST_HEADING, MOST_HEADING
+from punctura.exercise.coach.seen import Seen
+from punctura.exercise.fields import Distance, Vector
+from punctura.exercise.goals.goal import Course, Given, Goal
+from punctura.exercise.judge import Limit, SoFar
+from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.quantities import mm, tenths
+from punctura.exercise.remark import Remark
+from punctura.exercise.space import TargetSpace
+from punctura.exercise.ticks import JudgedTicks
+
+
+def across(scene: Scene, along: list[float]) -> NDArray[np.float64]:
+    """The direction across a line on the first membrane's surface, of length 1; NaN if the line is upright."""
+    side: NDArray[np.float64] = np.cross(np.asarray(scene.membranes[0].inward_normal, np.float64), along)
+    length = float(np.linalg.norm(side))
+    return side / length if length > 1e-9 else np.full(3, np.nan)
+
+
+_WAYS = (("to the left", "to the right"), ("down", "up"), ("away from you", "towards you"))  # of x, y and z
+
+
+class OnLine(Goal):
+    """While the point is in the space, it is not farther to the side of a line than this.
+
+    The distance is measured along the first membrane's surface, at a right angle to the line.
+    """
+
+    kind: Literal["on_line"]
+    point_mm: Vector  # any point of the line
+    along: Vector  # its direction
+    within_mm: Distance
+
+    def judge(self, course: Course) -> LineJudge:
+        return LineJudge(self, course.scene)
+
+    @classmethod
+    def problems(cls, given: Given, space: Given, scene: Scene | None) -> Iterator[Problem]:
+        """The direction must have a length, and must not be upright."""
+        along = given.get("along")
+        if along is None:
+            return
+        if not LEAST_HEADING <= math.hypot(*along) <= MOST_HEADING:
+            reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
+            yield Problem("along", along, reason)
+        elif scene is not None and np.isnan(across(scene, along)).any():
+            yield Problem("along", along, "must not be parallel to the first membrane's normal")
+
+
+class LineJudge(Limit):
+    """Uses the position of the tip in the ticks in which the point is in the space."""
+
+    def __init__(self, goal: OnLine, scene: Scene) -> None:
+        super().__init__(goal.text or f"Keep the point within {goal.within_mm:g} mm of the middle line")
+        self.within = goal.within_mm * 1e-3
+        self.farthest: float | None = None  # m, to the side; up to the first miss
+        self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
+        self.aim: float | None = None  # m to the side, where the needle points at the line's depth in the last tick
+        self._normal = np.asarray(scene.membranes[0].inward_normal) / np.linalg.norm(scene.membranes[0].inward_normal)
+        self._first: Moment | None = None
+
+    @property
+    def way(self) -> str:
+        """Where to move a needle that points beside the line, seen by the user."""
+        way = -np.sign(self.aim or 0.0) * self._across
+        axis = int(np.abs(way).argmax())
+        return _WAYS[axis][int(way[axis] > 0)]
+
+    def _points(self, ticks: JudgedTicks) -> None:
+        offset, held = ticks.tip[-1] - self._point, ticks.held[-1]
+        left = max(0.0, -float(offset @ self._normal) / max(grazing_cosine, float(held @ self._normal)))
+        aim = float((offset + left * held) @ self._across)
+        self.aim = aim if np.isfinite(aim) else None
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        self._points(ticks)
+        aside = np.abs((ticks.tip - self._point) @ self._across)
+        self._watch(ticks, np.isfinite(aside))
+        here = ticks.in_space[:, 0] & np.isfinite(aside)
+        if self.missed is not None or not here.any():
+            return
+        self._first = self._first or first_of(ticks, here)
+        off = here & (aside > self.within)
+        self._miss(ticks, off)
+        until = here & (np.arange(len(ticks)) <= (int(off.argmax()) if off.any() else len(ticks)))
+        self.farthest = max(self.farthest or 0.0, float(aside[until].max()))
+
+    def measured(self, until: Moment | None) -> bool:
+        return by(self._first, until) and super().measured(until)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"The point came into {space.name} {tenths((self.farthest or 0.0) * 1e3)} mm beside the middle line."
+
+    def never_measured(self, first: str) -> str:
+        return f"Not measured: “{self.text}”, because the point was never in the space."
+
+    def aiming(self, inside: bool) -> str:
+        if abs(self.aim or 0.0) <= self.within:
+            return ""
+        half_mm = round(abs(self.aim or 0.0) * 2e3) / 2
+        if inside:
+            return f"The needle points {half_mm:g} mm beside the line: draw it out, and move it {self.way}."
+        return f"Move the needle {half_mm:g} mm {self.way}, until it points at the line. Then push in."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        beside = self.farthest or 0.0
+        text = (
+            f"The point was {mm(beside)} beside the middle line when it came into {seen.space.name}; "
+            f"{mm(self.within)} are allowed: move the needle sideways before you enter, until it points at the line."
+        )
+        yield Remark(about="line", text=text, numbers={"beside_m": beside, "allowed_m": self.within})
+
+    def praise(self, seen: Seen) -> Iterator[Remark]:
+        if self.farthest is not None:
+            text = f"You hit the middle of {seen.space.name}: at most {mm(self.farthest)} beside its middle line."
+            yield Remark(about="line", text=text, numbers={"beside_m": self.farthest, "allowed_m": self.within})
