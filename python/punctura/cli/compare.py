@@ -10,7 +10,7 @@ import typer
 
 from punctura import save_scene
 from punctura.cli._out import check_apart, check_folder, check_place
-from punctura.cli.identify import decimal_of, needle_of, pairs
+from punctura.cli._trace import Column, Encoding, Order, Point, Sheet, Unit, needle_of, reading_of
 from punctura.progress import progress_bar
 
 
@@ -21,19 +21,12 @@ def command(
     models: Annotated[
         str | None, typer.Option("--models", help="Names, with commas between. Default: all.", metavar="NAMES")
     ] = None,
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", help="Column by name or number, depth=NAME.", metavar="ROLE=COLUMN"),
-    ] = None,
-    unit: Annotated[
-        list[str] | None, typer.Option("--unit", help="Unit of a column, such as depth=mm.", metavar="ROLE=UNIT")
-    ] = None,
-    order: Annotated[
-        str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")
-    ] = "recorded",
-    decimal: Annotated[
-        str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")
-    ] = None,
+    column: Column = None,
+    unit: Unit = None,
+    order: Order = "recorded",
+    decimal: Point = None,
+    encoding: Encoding = None,
+    sheet: Sheet = None,
     needle: Annotated[
         str | None,
         typer.Option(
@@ -58,20 +51,14 @@ def command(
     from punctura.rivals.figure import SUFFIXES, save_figure
     from punctura.rivals.words import as_json as numbers
     from punctura.rivals.words import notes, table
-    from punctura.trace import read_trace
-    from punctura.trace.read import recorded_needle
+    from punctura.trace.read import read_as, recorded_needle
 
     if plot is not None and plot.suffix.lower() not in SUFFIXES:
         raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--plot")
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")
-    if order not in ("recorded", "depth"):
-        raise typer.BadParameter("must be recorded or depth", param_hint="--order")
-    read = read_trace(
-        trace, pairs(column, "--column"), pairs(unit, "--unit"), order="depth" if order == "depth" else "recorded",
-        decimal=decimal_of(decimal),
-    )  # fmt: skip
+    read = read_as(trace, reading_of(column, unit, order, decimal, encoding, sheet))
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from punctura import Needle
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
+from punctura.cli._trace import (
+    Column,
+    Encoding,
+    Order,
+    Point,
+    Sheet,
+    Unit,
+    needle_of,
+    read_with_needle,
+    reading_of,
+)
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar
 
@@ -22,6 +31,7 @@ if TYPE_CHECKING:
 
 
 def command(
+    context: typer.Context,
     trace: Annotated[
         Path,
         typer.Argument(
@@ -39,19 +49,12 @@ def command(
         ),
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", help="A column by name or number: depth=z, force=2.", metavar="ROLE=NAME"),
-    ] = None,
-    unit: Annotated[
-        list[str] | None, typer.Option("--unit", help="A unit: depth=mm, force=mN, time=ms.", metavar="ROLE=UNIT")
-    ] = None,
-    order: Annotated[
-        str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")
-    ] = "recorded",
-    decimal: Annotated[
-        str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")
-    ] = None,
+    column: Column = None,
+    unit: Unit = None,
+    order: Order = "recorded",
+    decimal: Point = None,
+    encoding: Encoding = None,
+    sheet: Sheet = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -75,28 +78,22 @@ def command(
     from punctura.identify.folder import Task
     from punctura.identify.report import report_html
     from punctura.scene.write import scene_text
-    from punctura.trace import read_trace
 
-    if order not in ("recorded", "depth"):
-        raise typer.BadParameter("must be recorded or depth", param_hint="--order")
-    task = Task(
-        needle_of(needle, trace), number_of(membranes), pairs(column, "--column"), pairs(unit, "--unit"),
-        "depth" if order == "depth" else "recorded", decimal_of(decimal),
-    )  # fmt: skip
+    stated, count = reading_of(column, unit, order, decimal, encoding, sheet), number_of(membranes)
     if trace.is_dir():
         if scene or report or plan:
             raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out FOLDER")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        _folder(trace, out, task, processes, as_json)
+        _folder(trace, out, Task(needle_of(needle), count, stated), processes, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}
     for option, path in written.items():
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
-    read = read_trace(trace, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
-    found = identify(read, task.needle, task.membranes, lambda word: typer.echo(f"punctura: {word}", err=True))
+    read, known = read_with_needle(trace, stated, needle, context)
+    found = identify(read, known, count, lambda word: typer.echo(f"punctura: {word}", err=True))
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
@@ -138,26 +135,6 @@ def _plan(path: Path, found: Identification) -> None:
     typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
 
 
-def pairs(given: list[str] | None, option: str) -> dict[str, str]:
-    """{"depth": "mm"} of ["depth=mm"]."""
-    found = {}
-    for text in given or []:
-        role, equals, value = text.partition("=")
-        if not equals or not value:
-            raise typer.BadParameter(f"{text!r} must be ROLE=VALUE, for example depth=mm", param_hint=option)
-        found[role.strip()] = value.strip()
-    return found
-
-
-def decimal_of(text: str | None) -> Literal[".", ","] | None:
-    """The decimal mark of the option --decimal."""
-    if text is None or text == "point":
-        return None if text is None else "."
-    if text != "comma":
-        raise typer.BadParameter("must be point or comma", param_hint="--decimal")
-    return ","
-
-
 def number_of(membranes: str) -> int | Literal["auto"]:
     """The option --membranes as a number, or "auto"."""
     if membranes == "auto":
@@ -165,35 +142,6 @@ def number_of(membranes: str) -> int | Literal["auto"]:
     if not membranes.isdigit() or not 1 <= int(membranes) <= 12:
         raise typer.BadParameter(f"{membranes!r} must be auto or a number from 1 to 12", param_hint="--membranes")
     return int(membranes)
-
-
-def needle_of(text: str, trace: Path | None = None) -> Needle:
-    """The needle of `diameter_mm=2,tip_angle_deg=45`. Without a text that of the trace, if it is a recording."""
-    if not text:
-        from punctura.trace.read import recorded_needle
-
-        if trace is not None and trace.is_file() and (recorded := recorded_needle(trace)) is not None:
-            return recorded
-        raise typer.BadParameter(
-            "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45 (only a recording of "
-            "Punctura states its own)",
-            param_hint="--needle",
-        )
-    values = pairs(text.split(","), "--needle")
-    unknown = set(values) - {"diameter_mm", "tip_angle_deg", "tip_angle_rad"}
-    if unknown or "diameter_mm" not in values or not {"tip_angle_deg", "tip_angle_rad"} & set(values):
-        raise typer.BadParameter("must be diameter_mm=...,tip_angle_deg=... (or tip_angle_rad)", param_hint="--needle")
-    try:
-        angle = (
-            float(values["tip_angle_rad"])
-            if "tip_angle_rad" in values
-            else math.radians(float(values["tip_angle_deg"]))
-        )
-        if "tip_angle_rad" not in values and not 0 < angle < math.pi / 2:
-            raise ValueError(f"tip_angle_deg = {values['tip_angle_deg']}: must be between 0 and 90")
-        return Needle(float(values["diameter_mm"]) * 1e-3, angle)
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--needle") from None
 
 
 def in_words(found: Identification) -> str:

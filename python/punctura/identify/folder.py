@@ -8,11 +8,11 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Literal
@@ -28,9 +28,11 @@ from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
 from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
-from punctura.trace import MissingPackage, read_trace
+from punctura.trace import MissingPackage
+from punctura.trace.read import read_as
+from punctura.trace.reading import Reading
 
-SUFFIXES = (".csv", ".txt", ".parquet", ".mat", ".xlsx")
+SUFFIXES = (".csv", ".txt", ".lvm", ".parquet", ".mat", ".xlsx", ".xlsm")
 LONGEST = 200  # bytes of a name; a temporary file adds to it
 DIED = "its process ended early; is there enough memory?"  # tried again by the next run
 
@@ -41,16 +43,12 @@ class Task:
 
     needle: Needle
     membranes: int | Literal["auto"] = "auto"
-    columns: Mapping[str, str] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
-    order: Literal["recorded", "depth"] = "recorded"
-    decimal: Literal[".", ","] | None = None
+    reading: Reading = field(default_factory=Reading)
 
     def key(self) -> TaskRecord:
         """What a result depends on, beside its file."""
         needle = [self.needle.diameter, self.needle.tip_angle]
-        return {"needle": needle, "membranes": self.membranes, "columns": dict(self.columns),
-                "units": dict(self.units), "order": self.order, "decimal": self.decimal,
+        return {"needle": needle, "membranes": self.membranes, "reading": asdict(self.reading),
                 "punctura": punctura.__version__}  # fmt: skip
 
 
@@ -169,7 +167,7 @@ def _follow_parent(stopped: Connection) -> None:
 def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
     """The result of one trace, in a process of its own, and whether the next run shall try it again."""
     try:
-        trace = read_trace(path, dict(task.columns), dict(task.units), order=task.order, decimal=task.decimal)
+        trace = read_as(path, task.reading)
         told = identify(trace, task.needle, task.membranes).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
         return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, (ImportError, MissingPackage))

@@ -68,10 +68,7 @@ class TaskRecord(TypedDict):
 
     needle: list[float]
     membranes: int | Literal["auto"]
-    columns: dict[str, str]
-    units: dict[str, str]
-    order: str
-    decimal: str | None
+    reading: dict[str, object]  # trace/reading.py
     punctura: str  # version
 
 

@@ -30,8 +30,9 @@ from punctura.studio.wire.identified import (
     TriedPart,
 )
 from punctura.trace import Trace, segment
-from punctura.trace.columns import REQUIRED, UNITS
+from punctura.trace.columns import REQUIRED
 from punctura.trace.look import Look
+from punctura.trace.units import UNITS
 
 POINTS = 3000  # samples of a curve, at most
 DIGITS = 6

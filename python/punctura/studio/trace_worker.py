@@ -88,8 +88,7 @@ def _refuse_severe(trace: Trace) -> None:
     for finding in trace.findings:
         if finding.severe:
             role = "depth" if "depth" in finding.text else "force"
-            what = {"wrong_unit": f"unit.{role}", "constant": f"column.{role}"}
-            raise FieldError(what.get(finding.kind, ""), str(finding))
+            raise FieldError(f"column.{role}" if finding.kind == "constant" else "", str(finding))
 
 
 def _compare(found: Identification, say: Say) -> None:
@@ -136,7 +135,7 @@ def main() -> None:
     except FieldError as error:
         fail(error, error.field)
     except ColumnError as error:
-        fail(error, f"{error.what}.{error.role}" if error.role else "")
+        fail(error, error.field)
     except ModuleNotFoundError as error:
         text = f"this needs the package {error.name}: pip install 'punctura[identify]'"
         say(ErrorLine(text=words_of(text), field=""))

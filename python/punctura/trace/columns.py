@@ -4,113 +4,165 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from typing import Literal
+from typing import Literal, NamedTuple
 
-from punctura.trace.trace import TraceError
+import numpy as np
+from numpy.typing import NDArray
 
+from punctura.trace.clock import is_stamp
+from punctura.trace.names import plain_name, role_named
+from punctura.trace.trace import Finding, Unstated
+from punctura.trace.units import UNITS, role_of, split_name, unit_of
+
+Array = NDArray[np.float64]
 ROLES = ("depth", "force", "time")
 REQUIRED = ("depth", "force")
+_QUANTITIES = {"depth": "length", "force": "force", "time": "time"}
 _MOST_LISTED = 30  # columns in a message
 
-# Size of a unit in SI units.
-UNITS: dict[str, dict[str, float]] = {
-    "depth": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
-    "force": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "gf": 9.80665e-3, "kgf": 9.80665, "lbf": 4.4482216152605},
-    "time": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0},
-}
-# English and German, as programs of testing machines write them.
-_NAMES = {
-    "depth": {
-        "depth", "displacement", "position", "extension", "travel", "stroke", "crosshead", "insertion", "penetration",
-        "insertion_depth", "penetration_depth", "needle_depth", "compressive_extension", "compressive_displacement",
-        "z", "x", "weg", "standardweg", "traversenweg", "tiefe", "eindringtiefe", "einstichtiefe",
-    },
-    "force": {
-        "force", "load", "axial_force", "axial_load", "needle_force", "insertion_force", "compressive_force",
-        "compressive_load", "standard_force", "f", "fz", "kraft", "standardkraft", "nadelkraft",
-    },
-    "time": {"time", "t", "elapsed", "elapsed_time", "test_time", "timestamp", "zeit", "prüfzeit", "testzeit"},
-}  # fmt: skip
+
+class Problem(NamedTuple):
+    """What a file does not state, and the option that states it."""
+
+    what: Literal["column", "unit"]
+    role: str  # of ROLES, or empty
+    text: str
+
+    @property
+    def option(self) -> str:
+        value = {"column": "NAME", "unit": "UNIT"}[self.what]
+        return f"--{self.what} {self.role}={value}"
 
 
-def known_unit(text: str) -> str:
-    """The unit in a cell of its own, `mm`, `(mm)` or `[mm]`; empty if it is none."""
-    unit = text.strip().strip("()[]{}").strip()
-    return unit if any(unit in units for units in UNITS.values()) else ""
+class ColumnError(Unstated):
+    """Columns or their units are not clear: all problems of a file at once."""
 
+    def __init__(self, source: str, problems: Sequence[Problem], names: Sequence[str]) -> None:
+        listed = ", ".join(repr(name) for name in names[:_MOST_LISTED])
+        listed += f" and {len(names) - _MOST_LISTED} more" if len(names) > _MOST_LISTED else ""
+        texts = [f"{one.text} ({one.option})" if one.role else one.text for one in problems]
+        units = [f"; the units of {_QUANTITIES[one.role]} are {', '.join(UNITS[one.role])}"
+                 for one in problems if one.what == "unit"]  # fmt: skip
+        text = f"{source}: {'; '.join(texts)}. The columns are {listed}{''.join(units)}"
+        super().__init__(text, [one.option for one in problems if one.role])
+        self.problems = tuple(problems)
 
-def split_name(name: str) -> tuple[str, str]:
-    """Splits a column's name into its plain name and its unit: `depth_mm`, `Depth (mm)`, `depth [mm]`, `Depth/mm`."""
-    text = name.strip()
-    found = re.fullmatch(r"(.+?)\s*[\[(]\s*([^\])]*)\s*[\])]", text) or re.fullmatch(r"(.+?)[\s_/]+([A-Za-zµ]+)", text)
-    known = {unit for units in UNITS.values() for unit in units}
-    if found and found[2].strip() in known:
-        text, unit = found[1], found[2].strip()
-    else:
-        unit = ""
-    return re.sub(r"[\s_-]+", "_", text.strip().lower()), unit
-
-
-class ColumnError(TraceError):
-    """A column or its unit is not clear. what: "column" or "unit". role: of ROLES, or empty."""
-
-    def __init__(self, text: str, what: Literal["column", "unit"] = "column", role: str = "") -> None:
-        super().__init__(text, what, role)
-        self.what, self.role = what, role
-
-    def __str__(self) -> str:
-        return str(self.args[0])
+    @property
+    def field(self) -> str:
+        """The field of a form that states the first problem: `column.depth`, `unit.force`; empty if there is none."""
+        first = self.problems[0]
+        return f"{first.what}.{first.role}" if first.role else ""
 
 
 def candidates(role: str, names: Sequence[str], taken: Collection[int] = ()) -> list[int]:
-    """The columns that could be this one by their names. One if it is clear, none if no name is known."""
-    plain = [split_name(re.sub(r" \d+$", "", name))[0] for name in names]  # a repeated name has its column's number
-    matches = [i for i, name in enumerate(plain) if name in _NAMES[role] and i not in taken]
-    exact = [i for i in matches if plain[i] == role]
-    return exact if len(exact) == 1 else matches
+    """The columns that could be this one by their names and units. One if it is clear, none if none is known."""
+    split = [split_name(re.sub(r" \d+$", "", name)) for name in names]  # a repeated name has its column's number
+    named = [i for i, (name, _) in enumerate(split) if role_named(name) == role and i not in taken]
+    fitting = [i for i in named if role_of(split[i][1]) in (role, "")]
+    exact = [i for i in fitting if plain_name(split[i][0]) == role]
+    if len(exact) == 1:
+        return exact
+    tiers = (
+        [i for i in fitting if role_of(split[i][1]) == role],
+        [i for i in fitting if not split[i][1]],
+        fitting,
+        by_unit(role, names, taken),
+    )
+    return next((tier for tier in tiers if tier), [])
 
 
-def choose_columns(names: Sequence[str], columns: Mapping[str, str | int] | None, source: str) -> dict[str, int]:
-    """The index of the column for each role. columns: {"time": ""} means that no column is the time.
+def by_unit(role: str, names: Sequence[str], taken: Collection[int] = ()) -> list[int]:
+    """The columns that have a unit of this one and a name that is not known."""
+    split = [split_name(name) for name in names]
+    return [i for i, (name, unit) in enumerate(split) if role_of(unit) == role and not role_named(name)
+            and i not in taken]  # fmt: skip
 
-    Raises ColumnError that lists the names if a role is unclear.
+
+def choose_columns(
+    table: Mapping[str, Array],
+    columns: Mapping[str, str | int] | None,
+    units: Mapping[str, str] | None,
+    source: str,
+    needed: Collection[str] = REQUIRED,
+) -> tuple[dict[str, Array], list[Finding]]:
+    """The columns of the roles in SI units, and what was concluded about them.
+
+    columns: {"time": ""} means that no column is the time. Raises ColumnError that names all that is unclear.
     """
-    listed = ", ".join(repr(name) for name in names[:_MOST_LISTED])
-    listed += f" and {len(names) - _MOST_LISTED} more" if len(names) > _MOST_LISTED else ""
+    names = list(table)
+    problems: list[Problem] = []
+    findings: list[Finding] = []
     chosen: dict[str, int] = {}
-    for role, wanted in (columns or {}).items():
+    columns, units = columns or {}, units or {}
+    for role, wanted in columns.items():
+        found = _wanted(wanted, names)
         if role not in ROLES:
-            raise ColumnError(f"{source}: {role!r} is no role of a column; the roles are {', '.join(ROLES)}")
-        if wanted == "" and role not in REQUIRED:
-            continue
-        if isinstance(wanted, str) and wanted in names:
-            chosen[role] = list(names).index(wanted)
-        elif str(wanted).isdigit() and 1 <= int(wanted) <= len(names):
-            chosen[role] = int(wanted) - 1
-        else:
-            text = f"{source}: there is no column {wanted!r} for the {role}; the columns are {listed}"
-            raise ColumnError(text, "column", role)
+            problems.append(Problem("column", "", f"{role!r} is no role of a column; the roles are {', '.join(ROLES)}"))
+        elif found is not None:
+            chosen[role] = found
+        elif wanted != "" or role in needed:
+            problems.append(Problem("column", role, f"there is no column {wanted!r} for the {role}"))
     for role in ROLES:
-        if role in chosen or role in (columns or {}):
+        if role in columns or (role not in needed and role != "time"):
             continue
-        matches = candidates(role, names, chosen.values())
+        taken = list(chosen.values())
+        matches = _different(candidates(role, names, taken), table)
         if len(matches) == 1:
             chosen[role] = matches[0]
-        elif matches or role in REQUIRED:
-            problem = f"more than one column could be the {role}" if matches else f"no column is known to be the {role}"
-            text = f"{source}: {problem}; the columns are {listed}. Name one (--column {role}=NAME)"
-            raise ColumnError(text, "column", role)
-    return chosen
+            if matches == by_unit(role, names, taken):
+                text = f"{names[matches[0]]!r} is taken as the {role}: only it has a unit of {_QUANTITIES[role]}"
+                findings.append(
+                    Finding("column_by_unit", f"{text}. If that is wrong, name another (--column {role}=NAME)")
+                )
+        elif matches:
+            listed = ", ".join(repr(names[i]) for i in matches[:_MOST_LISTED])
+            problems.append(Problem("column", role, f"more than one column could be the {role}: {listed}"))
+        elif role in needed:
+            problems.append(Problem("column", role, f"no column is known to be the {role}"))
+            if role not in units and not any(role_of(split_name(name)[1]) == role for name in names):
+                problems.append(Problem("unit", role, f"no column has a unit of {_QUANTITIES[role]}"))
+    sizes = {role: _size(role, names[at], units, table, problems) for role, at in chosen.items()}
+    if problems:
+        raise ColumnError(source, problems, names)
+    return {role: table[names[at]] * sizes[role] for role, at in chosen.items()}, findings
 
 
-def unit_size(role: str, name: str, units: Mapping[str, str] | None, source: str) -> float:
-    """The size of a column's unit in SI units, from `units` or from the column's name. Raises ColumnError."""
+def _wanted(wanted: str | int, names: Sequence[str]) -> int | None:
+    """The place of a column that is named with or without its unit, or by its number from 1."""
+    if wanted in names:
+        return names.index(str(wanted))
+    if str(wanted).isdigit():
+        return int(wanted) - 1 if 1 <= int(wanted) <= len(names) else None
+    plain = [i for i, name in enumerate(names) if split_name(name)[0] == wanted]
+    return plain[0] if len(plain) == 1 else None
+
+
+def _different(matches: Sequence[int], table: Mapping[str, Array]) -> list[int]:
+    """Without columns that never change or that repeat another one, also with the other sign or in another unit."""
+    names = list(table)
+    kept: dict[int, Array] = {}
+    for i in matches if len(matches) > 1 else ():
+        values = table[names[i]]
+        unit = split_name(names[i])[1]
+        values = values * UNITS.get(role_of(unit), {}).get(unit, 1.0)
+        held = values[np.isfinite(values)]
+        alike = any(
+            np.allclose(values, sign * other, rtol=1e-3, atol=1e-3 * float(np.ptp(held)), equal_nan=True)
+            for other in kept.values() for sign in (1, -1) if len(held)
+        )  # fmt: skip
+        if len(held) and np.ptp(held) > 0 and not alike:
+            kept[i] = values
+    return list(kept) or list(matches)
+
+
+def _size(role: str, name: str, units: Mapping[str, str], table: Mapping[str, Array], problems: list[Problem]) -> float:
+    """The size of a column's unit in SI units, from `units` or from the column's name; else there is a problem more."""
     written = split_name(name)[1]
-    unit = (units or {}).get(role, written)
-    known = ", ".join(UNITS[role])
-    if not unit:
-        text = f"{source}: the unit of the {role} column {name!r} is not stated: state it (--unit {role}=UNIT)"
-        raise ColumnError(f"{text}; the units are {known}", "unit", role)
-    if unit not in UNITS[role]:
-        raise ColumnError(f"{source}: {unit!r} is no unit of the {role}; the units are {known}", "unit", role)
-    return UNITS[role][unit]
+    unit = units.get(role, written)
+    if not unit and role == "time" and is_stamp(table[name]):
+        unit = "ns"
+    size = UNITS[role].get(unit_of(unit))
+    if size is None:
+        text = f"{unit!r} is no unit of the {role}" if unit else f"the unit of the {role} column {name!r} is not stated"
+        problems.append(Problem("unit", role, text if role in units else f"{text}: state it"))
+    return size or np.nan

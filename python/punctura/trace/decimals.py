@@ -11,12 +11,16 @@ from numpy.typing import NDArray
 
 Decimal = Literal[".", ","]
 
-_WITH_COMMA = re.compile(r"\s*[+-]?(\d+|\d{1,3}(\.\d{3})+),\d+([eE][+-]?\d+)?\s*")
+_BETWEEN = r"[\s'\u2019]"  # marks between thousands, beside a point or a comma: any space, also a narrow one
+_WITH_COMMA = re.compile(rf"\s*[+-]?(\d*|\d{{1,3}}((\.|{_BETWEEN})\d{{3}})+),\d+([eE][+-]?\d+)?\s*")
 _POINTS = re.compile(r"\s*[+-]?\d+(\.\d+)+([eE][+-]?\d+)?\s*")  # points and no comma
+_NUMBER = re.compile(rf"\s*[+-]?[.,]?\d(\d|[.,]|{_BETWEEN})*([eE][+-]?\d+)?\s*")
+_THOUSANDS = r"\s*[+-]?[1-9]\d{0,2}(%s\d{3})+"
 _GROUPED = {
-    ".": re.compile(r"\s*[+-]?\d{1,3}(,\d{3})+(\.\d*)?\s*"),
-    ",": re.compile(r"\s*[+-]?\d{1,3}(\.\d{3})+(,\d*)?\s*"),
+    ".": re.compile(_THOUSANDS % f"(,|{_BETWEEN})" + r"(\.\d*)?\s*"),
+    ",": re.compile(_THOUSANDS % f"(\\.|{_BETWEEN})" + r"(,\d*)?\s*"),
 }
+_MARKS = {mark: re.compile(rf"[{other}]|{_BETWEEN}") for mark, other in ((".", ","), (",", "."))}
 
 
 class DoubtfulNumber(ValueError):
@@ -29,8 +33,22 @@ def has_decimal_comma(cell: str) -> bool:
 
 
 def decimal_in(cells: Iterable[str]) -> Decimal:
-    """The decimal mark of these cells: a comma if one of them has it."""
-    return "," if any(has_decimal_comma(cell) for cell in cells) else "."
+    """The decimal mark of these cells: a comma if one of them has it, and none that must have a point.
+
+    `1,050` can be a thousand and fifty; beside `0.25` and without `0,25` it is.
+    """
+    seen = {_shown(cell.strip()) for cell in cells if _NUMBER.fullmatch(cell)}
+    return "," if (",", True) in seen or ((",", False) in seen and (".", True) not in seen) else "."
+
+
+def _shown(cell: str) -> tuple[str, bool]:
+    """The decimal mark that a number has, and whether that is sure. None is sure to be a point."""
+    marks = re.findall("[.,]", cell)
+    if not marks:
+        return ".", False
+    if marks.count(marks[-1]) > 1:  # between thousands
+        return "," if marks[-1] == "." else ".", True
+    return marks[-1], len(marks) > 1 or not re.fullmatch(r"[+-]?[1-9]\d{0,2}[.,]\d{3}", cell)
 
 
 def number(cell: Any, decimal: Decimal = ".", asked: bool = False) -> float:
@@ -40,10 +58,11 @@ def number(cell: Any, decimal: Decimal = ".", asked: bool = False) -> float:
     """
     if not isinstance(cell, str):
         return float(cell) if isinstance(cell, (int, float)) else np.nan
+    cell = cell.replace("\u2212", "-")
     if decimal == "," and not asked and _POINTS.fullmatch(cell):
         raise DoubtfulNumber(cell.strip())
     if _GROUPED[decimal].fullmatch(cell):
-        cell = cell.replace("," if decimal == "." else ".", "")
+        cell = _MARKS[decimal].sub("", cell)
     elif decimal == "," and "." in cell:
         return np.nan
     try:

@@ -15,9 +15,9 @@ from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
-# A needle insertion outside these bounds points to a wrong unit.
-_DEPTHS = (5e-4, 0.5)  # m, range of the depth
-_FORCES = (2e-3, 200.0)  # N, greatest force
+# An insertion outside these bounds, from microneedles to trocars, can point to a wrong unit.
+_DEPTHS = (1e-5, 0.5)  # m, range of the depth
+_FORCES = (2e-5, 1000.0)  # N, greatest force
 _FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
 _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
 
@@ -68,8 +68,8 @@ def _units(trace: Trace) -> Iterator[Finding]:
         elif not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
-            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}; correct the unit (--unit {what}=UNIT)"
-            yield Finding("wrong_unit", text, severe=True)
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}"
+            yield Finding("wrong_unit", f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
 
 
 def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:

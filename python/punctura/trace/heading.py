@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from punctura.trace.columns import known_unit
+from punctura.trace.clock import is_clock
 from punctura.trace.decimals import Decimal, number
+from punctura.trace.units import is_unit, split_name, unit_of
 
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 
@@ -15,11 +16,11 @@ Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 def is_number(cell: Any, decimal: Decimal = ".") -> bool:
     """Whether a cell holds a number, as text with this decimal mark or as such."""
     if not isinstance(cell, str):
-        return isinstance(cell, (int, float)) and not isinstance(cell, bool)
+        return (isinstance(cell, (int, float)) and not isinstance(cell, bool)) or is_clock([cell])
     try:
         float(cell.strip().replace(decimal, "."))
     except ValueError:
-        return not math.isnan(number(cell, decimal, True))
+        return not math.isnan(number(cell, decimal, True)) or is_clock([cell])
     return True
 
 
@@ -52,8 +53,7 @@ def column_names(above: Sequence[Row], width: int) -> list[str]:
     fitting = [_texts(row, width) for row in above[-2:]]
     names = next(iter(fitting[-1:]), None)
     if names is not None and len(fitting) == 2 and fitting[0] is not None and _are_units(names):
-        units = [known_unit(cell) for cell in names]
-        names = [f"{name} [{unit}]" if unit else name for name, unit in zip(fitting[0], units, strict=True)]
+        names = [with_unit(name, unit) for name, unit in zip(fitting[0], names, strict=True)]
     return unique(names if names is not None else [str(i + 1) for i in range(width)])
 
 
@@ -76,7 +76,13 @@ def _texts(row: Row, width: int) -> list[str] | None:
 
 def _are_units(cells: Sequence[str]) -> bool:
     written = [cell for cell in cells if cell]
-    return sum(bool(known_unit(cell)) for cell in written) >= min(2, len(written))
+    return sum(map(is_unit, written)) >= min(2, len(written))
+
+
+def with_unit(name: str, unit: str) -> str:
+    """A column's name with a unit that is stated elsewhere in the file, unless the name has one."""
+    unit = unit_of(unit) or unit.strip().strip("()[]")
+    return f"{name} [{unit}]" if unit and not split_name(name)[1] else name
 
 
 def _empty(cell: Any) -> bool:

@@ -4,41 +4,41 @@ from __future__ import annotations
 
 import codecs
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from punctura.trace.size import LONGEST_NAME, MOST_COLUMNS, check_bytes
+from punctura.trace.size import LONGEST_NAME, MOST_COLUMNS
 from punctura.trace.trace import TraceError
 
 LOOKED_AT = 200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
-_MOST_BYTES = 500_000_000  # the cells of a table take a few times as much memory
+MOST_BYTES = 500_000_000  # the cells of a table take a few times as much memory
 _LONGEST_LINE = LONGEST_NAME * MOST_COLUMNS  # characters
 _PIECE = 1 << 20  # bytes
+
+
+Pieces = Callable[[], Iterator[list[str]]]  # reads the lines of a file from its start
 
 
 class Survey(NamedTuple):
     """What a text file holds. Blank lines do not count."""
 
-    encoding: str
     first: list[str]  # lines, with comments
     last: list[str]  # lines that are no comments
     rows: int  # lines that are no comments
 
 
-def survey(path: Path) -> Survey:
-    """Reads a text file once. Raises TraceError for one that is too large or no text, OSError."""
-    check_bytes(path, _MOST_BYTES, " of text")
-    encoding = _encoding(path)
+def survey(pieces: Pieces) -> Survey:
+    """Reads a text file once. Raises TraceError for a line that is too long, OSError."""
     first: list[str] = []
     last: list[str] = []
     count = 0
-    for lines in read_lines(path, encoding):
+    for lines in pieces():
         first += lines[: LOOKED_AT - len(first)]
         rows = [line for line in lines if not is_comment(line)]
         last = (last + rows)[-LOOKED_AT:]
         count += len(rows)
-    return Survey(encoding, first, last, count)
+    return Survey(first, last, count)
 
 
 def read_lines(path: Path, encoding: str) -> Iterator[list[str]]:
@@ -61,22 +61,3 @@ def read_lines(path: Path, encoding: str) -> Iterator[list[str]]:
 
 def is_comment(line: str) -> bool:
     return line.startswith(("#", "%"))
-
-
-def _encoding(path: Path) -> str:
-    """UTF-16 with a mark, UTF-8, or what programs on Windows write in western countries. Raises TraceError."""
-    decoder = codecs.getincrementaldecoder("utf-8")()
-    with path.open("rb") as file:
-        beginning = file.read(4096)
-        if beginning.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-            return "utf-16"
-        if b"\0" in beginning:
-            raise TraceError(f"{path}: is no text, Parquet, MAT or XLSX file; export the table as CSV")
-        try:
-            decoder.decode(beginning)
-            while piece := file.read(_PIECE):
-                decoder.decode(piece)
-            decoder.decode(b"", final=True)
-        except UnicodeDecodeError:
-            return "cp1252"
-    return "utf-8-sig"

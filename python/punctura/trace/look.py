@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from punctura import Needle
-from punctura.trace.columns import ROLES, candidates, split_name
+from punctura.trace.columns import ROLES, candidates
 from punctura.trace.read import recording_at
+from punctura.trace.reading import Reading
 from punctura.trace.size import check_file
 from punctura.trace.tables import read_table
+from punctura.trace.units import split_name
 
 EXAMPLES = 3  # numbers of a column that are shown
 
@@ -51,7 +53,7 @@ def look_at(path: str | os.PathLike[str]) -> Look:
     recording = recording_at(path)
     if recording is not None:
         return Look(recording.rows, (), (), recording.info.scene.needle)
-    table = read_table(path)
+    table = read_table(path, Reading())
     names = list(table)
     columns = tuple(
         Column(name, split_name(name)[1], tuple(cells[np.isfinite(cells)][:EXAMPLES].tolist()))

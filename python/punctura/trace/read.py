@@ -6,7 +6,6 @@ import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +13,17 @@ from numpy.typing import NDArray
 from punctura._core import Needle
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.schema import ticks_of
-from punctura.trace.columns import choose_columns, unit_size
+from punctura.trace.columns import choose_columns
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
+from punctura.trace.reading import Order, Reading
 from punctura.trace.size import check_file, check_size
-from punctura.trace.tables import Table, read_table
-from punctura.trace.trace import Finding, Trace, TraceError
+from punctura.trace.table import Table
+from punctura.trace.tables import read_table
+from punctura.trace.text import DecimalError
+from punctura.trace.trace import Finding, Trace, TraceError, Unstated
 
 Array = NDArray[np.float64]
-Order = Literal["recorded", "depth"]
 
 
 def read_trace(
@@ -32,21 +33,37 @@ def read_trace(
     *,
     order: Order = "recorded",
     decimal: Decimal | None = None,
+    encoding: str | None = None,
+    sheet: str | None = None,
 ) -> Trace:
-    """Reads CSV, Parquet, MAT, XLSX or a recording of Punctura. The findings of the trace name what is unusual.
+    """Reads a trace file of a kind of docs/identify.md. The findings of the trace name what is unusual.
 
     columns: {"depth": name or number from 1, "force": ..., "time": ...}; without it, columns are found by name
     (`depth_mm`, `force_N`, `time_s`). units: {"depth": "mm", ...}; a unit in a column's name needs none.
-    order: "depth" sorts a digitised curve of one insertion. decimal: the mark in front of decimals in a text file;
-    None: as the file shows, and a number that can be read in two ways is an error. Raises TraceError, OSError.
+    order: "depth" sorts a digitised curve of one insertion. decimal: the mark in front of decimals in a text file, and
+    encoding: of its letters; None: as the file shows, and what can be read in two ways is an error. sheet: of a
+    workbook, by name or number from 1. Raises TraceError, OSError.
     """
+    return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet))
+
+
+def read_as(path: str | os.PathLike[str], reading: Reading) -> Trace:
+    """As read_trace(). Raises TraceError, OSError."""
     path = Path(path)
     check_file(path)
     recording = recording_at(path)
     if recording is not None:
         return examine(_from_recording(recording))
-    table = read_table(path, decimal)
-    return examine(_from_table(table, str(path), columns, units, order))
+    try:
+        table = read_table(path, reading)
+    except DecimalError as doubt:  # all questions at once
+        try:
+            _from_table(read_table(path, replace(reading, decimal=",")), str(path), reading)
+        except Unstated as other:
+            raise Unstated(f"{doubt}\n{other}", [*doubt.options, *other.options]) from None
+        raise
+    trace = _from_table(table, str(path), reading)
+    return trace if any(finding.severe for finding in trace.findings) else examine(trace)
 
 
 def recording_at(path: Path) -> Recording | None:
@@ -78,30 +95,21 @@ def _from_recording(recording: Recording) -> Trace:
     return Trace(depth, force, time, str(path))
 
 
-def _from_table(
-    table: Table,
-    source: str,
-    columns: Mapping[str, str | int] | None,
-    units: Mapping[str, str] | None,
-    order: Order,
-) -> Trace:
-    names = list(table)
-    held = {
-        role: table[names[i]] * unit_size(role, names[i], units, source)
-        for role, i in choose_columns(names, columns, source).items()
-    }
-    found: list[Finding] = []
+def _from_table(table: Table, source: str, reading: Reading) -> Trace:
+    held, found = choose_columns(table, reading.columns, reading.units, source, reading.needed)
+    found[:0] = table.findings
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
         count = int((~good).sum())
         text = f"{count} of {len(good)} rows hold no number in a column, the first is row {int(np.argmin(good)) + 1}"
-        found.append(Finding("rows_without_numbers", f"{text}; they are left out", True))
+        severe = 10 * count > len(good)
+        found.append(Finding("rows_without_numbers", f"{text}; they are left out", True, severe))
     if good.sum() < 5:
         raise TraceError(
             f"{source}: a trace needs at least 5 rows with numbers in all columns, and here are {int(good.sum())}"
         )
     held = {role: column[good] for role, column in held.items()}
-    if order == "depth":
+    if reading.order == "depth":
         held = {
             role: column[np.argsort(held["depth"], kind="stable")] for role, column in held.items() if role != "time"
         }
@@ -122,12 +130,13 @@ def _with_growing_time(held: dict[str, Array], found: list[Finding]) -> dict[str
     if grows.all():
         return held
     back = np.concatenate(([False], np.diff(time) < 0))
-    row = int(np.argmin(grows)) + 1
+    row, lost = int(np.argmin(grows)) + 1, int((~grows).sum())
+    severe = lost > len(time) // 10
     if back.any():
         text = f"time goes back {int(back.sum())} times, first at sample {int(np.argmax(back)) + 1}"
-        severe = int((~grows).sum()) > len(time) // 10
-        found.append(Finding("time_goes_back", f"{text}; {int((~grows).sum())} samples are left out", True, severe))
+        found.append(Finding("time_goes_back", f"{text}; {lost} samples are left out", True, severe))
     else:
-        text = f"{int((~grows).sum())} samples have the time of the sample before, first sample {row}"
-        found.append(Finding("time_repeats", f"{text}; they are left out", True))
+        text = f"{lost} samples have the time of the sample before, first sample {row}; they are left out"
+        text += ". Record a finer time, or read the trace without (--column time=)" if severe else ""
+        found.append(Finding("time_repeats", text, True, severe))
     return {role: column[grows] for role, column in held.items()}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,11 +16,15 @@ import pyarrow as pa
 import pyarrow.csv
 from numpy.typing import NDArray
 
+from punctura.trace.clock import clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
-from punctura.trace.heading import column_names, first_row
-from punctura.trace.lines import is_comment, read_lines, survey
-from punctura.trace.size import check_size
-from punctura.trace.trace import TraceError
+from punctura.trace.encoding import encoding_of
+from punctura.trace.heading import column_names, first_row, with_unit
+from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, read_lines, survey
+from punctura.trace.lvm import is_lvm, lvm_lines
+from punctura.trace.size import check_bytes, check_size
+from punctura.trace.table import Table
+from punctura.trace.trace import Finding, TraceError, Unstated
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -30,16 +36,21 @@ _BLOCK = 1 << 22  # bytes: more than a line has
 _MOST_BROKEN = 1_000_000  # rows with another number of cells than the last ones
 
 
-def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
+def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None = None) -> Table:
     """All columns of a text file by name; a cell that holds no number is NaN. Raises TraceError, OSError.
 
     decimal: the mark in front of decimals; None: as the file shows, and a number that can be read in two ways is an
-    error.
+    error. encoding: of the letters; None: as the file shows.
 
     Lines above the table are left out, but for the names of the columns and their units. Rows with another number of
     cells are NaN.
     """
-    found = survey(path)
+    check_bytes(path, MOST_BYTES, " of text")
+    letters = encoding_of(path, encoding)
+    pieces: Pieces = partial(read_lines, path, letters.name)
+    if is_lvm(pieces):
+        pieces = partial(lvm_lines, pieces)
+    found = survey(pieces)
     if not found.rows:
         raise TraceError(f"{path}: is empty")
     delimiter = _delimiter(found.last)
@@ -55,24 +66,36 @@ def read_text(path: Path, decimal: Decimal | None = None) -> dict[str, Array]:
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
     names = column_names([_cells(line.lstrip("#% "), delimiter) for line in head[:first]], width)
-    rows = _Rows(path, found.encoding, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
-    table, left_out = _parsed(path, rows, names, delimiter)
+    rows = _Rows(pieces, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
+    cells, left_out = _parsed(path, rows, names, delimiter)
+    table = Table()
     try:
-        read = {name: _numbers(table[name], mark, decimal is not None) for name in names}
+        for name in names:
+            clock = is_clock(cells[name].slice(0, LOOKED_AT).to_pylist())
+            read = clock_seconds(cells[name].to_pylist()) if clock else _numbers(cells[name], mark, decimal is not None)
+            table[with_unit(name, "s") if clock else name] = np.insert(read, left_out, np.nan)
     except DoubtfulNumber as doubt:
-        raise TraceError(
-            f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate "
-            'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
-        ) from None
-    return {name: np.insert(cells, left_out, np.nan) for name, cells in read.items()}
+        text = (
+            f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate"
+        )
+        remedy = 'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
+        raise DecimalError(f"{text} {remedy}", ["--decimal point|comma"]) from None
+    if letters.doubtful:
+        text = "the encoding of the names is not known; if they matter, state it (--encoding gbk, shift_jis, ...)"
+        table.findings.append(Finding("encoding", text))
+    return table
+
+
+class DecimalError(Unstated):
+    """A number can be read in two ways."""
 
 
 class _Rows(io.RawIOBase):
     """The rows of numbers as bytes, for Arrow: without comments and the lines above."""
 
-    def __init__(self, path: Path, encoding: str, delimiter: str, skip: int) -> None:
+    def __init__(self, lines: Pieces, delimiter: str, skip: int) -> None:
         super().__init__()
-        self._pieces = self._encoded(path, encoding, delimiter, skip)
+        self._pieces = self._encoded(lines, delimiter, skip)
         self._left = memoryview(b"")
 
     def readable(self) -> bool:
@@ -91,8 +114,8 @@ class _Rows(io.RawIOBase):
         return count
 
     @staticmethod
-    def _encoded(path: Path, encoding: str, delimiter: str, skip: int) -> Iterator[bytes]:
-        for lines in read_lines(path, encoding):
+    def _encoded(pieces: Pieces, delimiter: str, skip: int) -> Iterator[bytes]:
+        for lines in pieces():
             rows = [_spaced(line, delimiter) + "\n" for line in lines if not is_comment(line)]
             yield "".join(rows[skip:]).encode()
             skip = max(0, skip - len(rows))
@@ -100,7 +123,7 @@ class _Rows(io.RawIOBase):
 
 def _spaced(line: str, delimiter: str) -> str:
     """The line with single spaces, if these are the delimiter."""
-    return " ".join(line.split()) if delimiter == " " else line
+    return " ".join(re.split("[ \t]+", line.strip())) if delimiter == " " else line
 
 
 def _numbers(cells: pa.ChunkedArray, mark: Decimal, asked: bool) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -17,6 +18,17 @@ Array = NDArray[np.float64]
 
 class TraceError(PuncturaError, ValueError):
     """A trace cannot be read or used. Names the file, the problem and the remedy."""
+
+
+class Unstated(TraceError):
+    """A trace file does not state what is needed to read it. options: of the command line, which state it."""
+
+    def __init__(self, text: str, options: Sequence[str]) -> None:
+        super().__init__(text, tuple(options))
+        self.options = tuple(options)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class MissingPackage(TraceError):

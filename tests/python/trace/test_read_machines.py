@@ -77,7 +77,7 @@ def test_a_matrix_in_a_mat_file_has_numbered_columns(tmp_path):
 
 def test_two_tables_side_by_side_are_asked_for(tmp_path):
     (tmp_path / "a.csv").write_text(
-        text_of(["time_s,depth_mm,force_N,force_N"], "{},{},{},1")
+        text_of(["time_s,depth_mm,force_N,force_N"], "{0},{1},{2},{0}")
     )  # the second force is of another specimen
     with pytest.raises(TraceError, match="more than one column could be the force"):
         read_trace(tmp_path / "a.csv")

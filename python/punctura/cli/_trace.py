@@ -1,0 +1,133 @@
+"""The options that say how to read a trace file, and one message for all that is missing."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from punctura import Needle
+
+if TYPE_CHECKING:
+    from punctura.trace import Trace
+    from punctura.trace.reading import Reading
+
+Column = Annotated[
+    list[str] | None,
+    typer.Option("--column", help="A column by name or number: depth=z, force=2.", metavar="ROLE=NAME"),
+]
+Unit = Annotated[
+    list[str] | None, typer.Option("--unit", help="A unit: depth=mm, force=mN, time=ms.", metavar="ROLE=UNIT")
+]
+Order = Annotated[str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")]
+Point = Annotated[str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")]
+Encoding = Annotated[
+    str | None, typer.Option("--encoding", help="Of a text file: gbk, shift_jis, utf-16, ...", metavar="NAME")
+]
+Sheet = Annotated[str | None, typer.Option("--sheet", help="Sheet of a workbook, by name or number.", metavar="NAME")]
+
+
+def reading_of(
+    column: list[str] | None, unit: list[str] | None, order: str, decimal: str | None, encoding: str | None,
+    sheet: str | None,
+) -> Reading:  # fmt: skip
+    """What the options say about a file. Raises typer.BadParameter."""
+    from punctura.trace.reading import Reading
+
+    if order not in ("recorded", "depth"):
+        raise typer.BadParameter("must be recorded or depth", param_hint="--order")
+    if decimal not in (None, "point", "comma"):
+        raise typer.BadParameter("must be point or comma", param_hint="--decimal")
+    return Reading(
+        pairs(column, "--column", empty=True), pairs(unit, "--unit"), "depth" if order == "depth" else "recorded",
+        None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
+    )  # fmt: skip
+
+
+def pairs(given: list[str] | None, option: str, empty: bool = False) -> dict[str, str]:
+    """{"depth": "mm"} of ["depth=mm"]. empty: whether a value may be empty: `time=`, no column is the time."""
+    found = {}
+    for text in given or []:
+        role, equals, value = text.partition("=")
+        if not equals or not (value or empty):
+            raise typer.BadParameter(f"{text!r} must be ROLE=VALUE, for example depth=mm", param_hint=option)
+        found[role.strip()] = value.strip()
+    return found
+
+
+class MissingNeedle(typer.BadParameter):
+    """The needle is not stated."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "is missing; state the needle, for example --needle diameter_mm=2,tip_angle_deg=45 (only a recording of "
+            "Punctura states its own)",
+            param_hint="--needle",
+        )
+
+
+def needle_of(text: str, trace: Path | None = None) -> Needle:
+    """The needle of `diameter_mm=2,tip_angle_deg=45`. Without a text that of the trace, if it is a recording."""
+    if not text:
+        from punctura.trace.read import recorded_needle
+
+        if trace is not None and trace.is_file() and (recorded := recorded_needle(trace)) is not None:
+            return recorded
+        raise MissingNeedle
+    values = pairs(text.split(","), "--needle")
+    unknown = set(values) - {"diameter_mm", "tip_angle_deg", "tip_angle_rad"}
+    if unknown or "diameter_mm" not in values or not {"tip_angle_deg", "tip_angle_rad"} & set(values):
+        raise typer.BadParameter("must be diameter_mm=...,tip_angle_deg=... (or tip_angle_rad)", param_hint="--needle")
+    try:
+        angle = (
+            float(values["tip_angle_rad"])
+            if "tip_angle_rad" in values
+            else math.radians(float(values["tip_angle_deg"]))
+        )
+        if "tip_angle_rad" not in values and not 0 < angle < math.pi / 2:
+            raise ValueError(f"tip_angle_deg = {values['tip_angle_deg']}: must be between 0 and 90")
+        return Needle(float(values["diameter_mm"]) * 1e-3, angle)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--needle") from None
+
+
+def read_with_needle(path: Path, reading: Reading, needle: str, context: typer.Context) -> tuple[Trace, Needle]:
+    """The trace of a file, and its needle. Raises TraceError that asks at once for all that is not stated."""
+    from punctura.trace.read import read_as
+    from punctura.trace.trace import TraceError, Unstated
+
+    known, trace = None, None
+    texts: list[str] = []
+    options: list[str] = []
+    try:
+        known = needle_of(needle, path)
+    except MissingNeedle as error:
+        texts, options = [f"--needle {error.message}"], ["--needle diameter_mm=D,tip_angle_deg=A"]
+    try:
+        trace = read_as(path, reading)
+    except Unstated as error:
+        texts.append(str(error))
+        options += error.options
+    if trace is None or known is None:
+        raise TraceError("\n".join([*texts, f"The whole command: {_command_with(context, options)}"]))
+    return trace, known
+
+
+def _command_with(context: typer.Context, options: Sequence[str]) -> str:
+    """This command with more options, in place of those that state the same."""
+    words = ["punctura", str(context.info_name)]
+    replaced = {option.split("=")[0] for option in options}
+    for parameter in context.command.params:
+        value = context.params.get(str(parameter.name))
+        if parameter.param_type_name == "argument":
+            words.append(str(value))
+        elif value not in (None, parameter.default, False, []):
+            for one in value if isinstance(value, (list, tuple)) else [value]:
+                stated = [parameter.opts[0], *([] if one is True else [str(one)])]
+                if parameter.opts[0] not in replaced and " ".join(stated).split("=")[0] not in replaced:
+                    words += stated
+    return " ".join([shlex.join(words), *options])

@@ -1,0 +1,50 @@
+"""Which table of a file with several is the trace: the sheets of a workbook, the groups of a TDMS file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from punctura.trace.columns import candidates
+from punctura.trace.reading import Reading
+from punctura.trace.table import Table
+from punctura.trace.trace import TraceError, Unstated
+
+
+class SheetError(Unstated):
+    """A file holds several traces. sheets: their names."""
+
+    def __init__(self, text: str, sheets: Sequence[str]) -> None:
+        super().__init__(text, ["--sheet NAME"])
+        self.sheets = tuple(sheets)
+
+
+def wanted_sheet(path: Path, names: Sequence[str], sheet: str) -> str:
+    """The name of a sheet that is stated by name or by number from 1. Raises TraceError."""
+    if sheet in names:
+        return sheet
+    if sheet.isdigit() and 1 <= int(sheet) <= len(names):
+        return names[int(sheet) - 1]
+    raise SheetError(f"{path}: there is no sheet {sheet!r}; the sheets are {_listed(names)} (--sheet NAME)", names)
+
+
+def only_trace(path: Path, tables: Mapping[str, Table], reading: Reading) -> Table:
+    """The one table that can be a trace; else the one table that there is. Raises SheetError if it is not clear."""
+    traces = [name for name, table in tables.items() if _is_trace(table, reading)] or list(tables)
+    if len(traces) == 1:
+        return tables[traces[0]]
+    if not traces:
+        raise TraceError(f"{path}: holds no rows of numbers")
+    text = f"{path}: {len(traces)} tables can be the trace: {_listed(traces)}; choose one (--sheet NAME)"
+    raise SheetError(f"{text}, or take all of them as a folder (--out FOLDER)", traces)
+
+
+def _is_trace(table: Table, reading: Reading) -> bool:
+    names = list(table)
+    long_enough = len(next(iter(table.values()), ())) >= 5
+    return long_enough and all(role in reading.columns or candidates(role, names) for role in reading.needed)
+
+
+def _listed(names: Sequence[str]) -> str:
+    shown = ", ".join(repr(name) for name in names[:20])
+    return shown + (f" and {len(names) - 20} more" if len(names) > 20 else "")
