@@ -8,14 +8,13 @@ C# and Rust get the functions and structs that their binding (Punctura.cs, lib.r
 
 from __future__ import annotations
 
-import argparse
 import json
 import re
 import sys
-from pathlib import Path
 from typing import NamedTuple
 
-ROOT = Path(__file__).resolve().parents[1]
+from generated import ROOT, write
+
 FOLDER = ROOT / "integrations"
 MADE = "// Made by tools/make_c_bindings.py, from punctura.h.\n"
 
@@ -312,19 +311,9 @@ def javascript(header: Header) -> str:
 
 
 def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="fail if the files are out of date")
-    check = parser.parse_args(argv).check
     header = Header((ROOT / "capi/include/punctura.h").read_text(encoding="utf-8"))
-    old = 0
-    for make, name in ((csharp, "csharp/Native.cs"), (rust, "rust/src/ffi.rs"), (javascript, "wasm/structs.mjs")):
-        path, text = FOLDER / name, make(header)
-        if not check:
-            path.write_text(text, encoding="utf-8", newline="\n")
-        elif not path.is_file() or path.read_text(encoding="utf-8") != text:
-            print(f"{path.relative_to(ROOT)} does not match punctura.h; run: python tools/make_c_bindings.py")
-            old = 1
-    return old
+    files = {"csharp/Native.cs": csharp, "rust/src/ffi.rs": rust, "wasm/structs.mjs": javascript}
+    return write(__file__, __doc__, {f"integrations/{name}": make(header) for name, make in files.items()}, argv)
 
 
 if __name__ == "__main__":

@@ -9,20 +9,18 @@ messages.json: a valid example of each message and request, and invalid requests
 
 from __future__ import annotations
 
-import argparse
 import base64
 import json
 import struct
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from generated import write
 from punctura.studio.wire.frames import HEAD, NUMBERS, WORDS, encode_ticks
 from punctura.ticks import Ticks
 from punctura.ticks.fields import shape_of
 
-FOLDER = Path(__file__).resolve().parents[1] / "tests" / "contract"
 PLAIN = ("take_control", "arm", "pause", "reset", "stop_recording", "end_exercise", "trip_fault")
 TRIPLE = [0.25, -1.5, 3.0]
 SPREAD = {"p50": 1e-6, "p99": 2e-6, "p99_9": 3e-6, "largest": 4e-6, "edges": [0.0, 1e-6, 2e-6], "counts": [5, 6]}
@@ -179,27 +177,10 @@ def messages() -> dict[str, Any]:
     return {"messages": sent, "requests": asked, "refused": refused}
 
 
-def wanted() -> dict[str, str]:
-    return {
-        name: json.dumps(data, indent=1, ensure_ascii=False) + "\n"
-        for name, data in {"frames.json": frames(), "messages.json": messages()}.items()
-    }
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true")
-    check = parser.parse_args().check
-    drifted = 0
-    for name, text in wanted().items():
-        path = FOLDER / name
-        if check and (not path.is_file() or path.read_text(encoding="utf-8") != text):
-            print(f"{path} is out of date; run: python tools/make_contract.py")
-            drifted += 1
-        elif not check:
-            FOLDER.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-    return 1 if drifted else 0
+def main(argv: list[str] | None = None) -> int:
+    files = {"frames.json": frames(), "messages.json": messages()}
+    texts = {name: json.dumps(data, indent=1, ensure_ascii=False) + "\n" for name, data in files.items()}
+    return write(__file__, __doc__, {f"tests/contract/{name}": text for name, text in texts.items()}, argv)
 
 
 if __name__ == "__main__":

@@ -6,14 +6,11 @@ python tools/make_tick_table.py --check  fails if these files are out of date
 
 from __future__ import annotations
 
-import argparse
 import sys
-from pathlib import Path
 
+from generated import write
 from punctura._core import TickField
 from punctura.ticks import FIELDS
-
-ROOT = Path(__file__).resolve().parents[1]
 
 PAGE = """# The fields of a tick
 
@@ -97,21 +94,7 @@ def module() -> str:
 
 
 def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="fail if the files are out of date")
-    check = parser.parse_args(argv).check
-    old = []
-    for path, text in (
-        (ROOT / "docs" / "tick.md", page()),
-        (ROOT / "web" / "src" / "wire" / "tick_table.ts", module()),
-    ):
-        if not check:
-            path.write_text(text, encoding="utf-8")
-        elif not path.is_file() or path.read_text(encoding="utf-8") != text:
-            old.append(str(path.relative_to(ROOT)))
-    if old:
-        print(f"{', '.join(old)} do not match core's table; run: python tools/make_tick_table.py", file=sys.stderr)
-    return 1 if old else 0
+    return write(__file__, __doc__, {"docs/tick.md": page(), "web/src/wire/tick_table.ts": module()}, argv)
 
 
 if __name__ == "__main__":

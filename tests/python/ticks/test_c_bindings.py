@@ -1,9 +1,9 @@
 """The declarations of punctura.h in other languages: they are current, and their layout and words are right."""
 
 import ctypes
-import importlib.util
 from pathlib import Path
 
+import make_c_bindings
 import pytest
 from punctura.ticks import FIELDS
 
@@ -15,24 +15,16 @@ TYPES = {
 
 
 @pytest.fixture(scope="module")
-def tool():
-    spec = importlib.util.spec_from_file_location("make_c_bindings", ROOT / "tools/make_c_bindings.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture(scope="module")
 def text():
     return (ROOT / "capi/include/punctura.h").read_text(encoding="utf-8")
 
 
-def test_the_files_are_those_that_the_tool_makes(tool, capsys):
-    assert tool.main(["--check"]) == 0, capsys.readouterr().out
+def test_the_files_are_those_that_the_tool_makes(capsys):
+    assert make_c_bindings.main(["--check"]) == 0, capsys.readouterr().out
 
 
-def test_offsets_are_those_of_the_compiler(tool, text):
-    structs = tool.Header(text).structs
+def test_offsets_are_those_of_the_compiler(text):
+    structs = make_c_bindings.Header(text).structs
     assert {s.name for s in structs} >= {"setup", "membrane", "membrane_tick", "limits", "sample", "record", "field"}
     for struct in structs:
         fields = []
@@ -41,16 +33,18 @@ def test_offsets_are_those_of_the_compiler(tool, text):
             fields.append((field.name, kind * field.length if field.length else kind))
         real = type(struct.name, (ctypes.Structure,), {"_fields_": fields})
         offsets = [getattr(real, field.name).offset for field in struct.fields]
-        assert tool.layout(struct, ctypes.sizeof(ctypes.c_void_p)) == (ctypes.sizeof(real), offsets), struct.name
+        assert make_c_bindings.layout(struct, ctypes.sizeof(ctypes.c_void_p)) == (ctypes.sizeof(real), offsets), (
+            struct.name
+        )
 
 
-def test_the_words_are_those_of_the_core(tool, text):
-    enums = tool.Header(text).enums
+def test_the_words_are_those_of_the_core(text):
+    enums = make_c_bindings.Header(text).enums
     for name, field in (("Phase", "phase"), ("ServoState", "state"), ("Limit", "limit")):
         assert enums[name] == list(FIELDS[field].words), name
 
 
 @pytest.mark.parametrize("line", ["typedef int32_t punctura_new;", "PUNCTURA_API void punctura_f(int (*g)(void));"])
-def test_no_declaration_is_left_out_in_silence(tool, text, line):
+def test_no_declaration_is_left_out_in_silence(text, line):
     with pytest.raises(SystemExit, match="cannot read"):
-        tool.Header(text.replace("typedef struct punctura_servo", f"{line}\ntypedef struct punctura_servo"))
+        make_c_bindings.Header(text.replace("typedef struct punctura_servo", f"{line}\ntypedef struct punctura_servo"))
