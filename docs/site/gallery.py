@@ -15,6 +15,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import matplotlib
@@ -27,6 +28,13 @@ from punctura import live
 EXAMPLES = ROOT / "examples"
 INKS = {"light": "#1f2328", "dark": "#d8dee4"}
 LINE = "#2f81f7"
+RUNTIME = ROOT / "runtime"
+# What an example in C++ needs of the runtime, on the system that builds the documentation.
+SOURCES = (
+    *(f"os/{name}.cpp" for name in ("linux", "posix_library", "socket")),
+    *("loop/servo_loop.cpp", "loop/thumb_loop.cpp", "backends/simulated.cpp"),
+)
+PEAK = re.compile(r"rest +([\d.]+) s +second peak +([\d.]+) N")
 PRINTED = re.compile(r"(?:depth|y) +(-?[\d.]+) mm +force +(-?[\d.]+) N")
 
 
@@ -59,12 +67,13 @@ def run_python(path: Path) -> Run:
 
 
 def run_cpp(path: Path, folder: Path) -> Run:
-    program = folder / path.stem
-    subprocess.run(
-        [os.environ.get("CXX", "c++"), "-std=c++20", "-ffp-contract=off", f"-I{ROOT / 'core'}", path, "-o", program],
-        check=True,
-    )
-    output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    program = (folder / path.stem).resolve()
+    command = [os.environ.get("CXX", "c++"), "-std=c++20", "-ffp-contract=off", f"-I{ROOT / 'core'}", path]
+    if "punctura_runtime" in path.read_text(encoding="utf-8"):
+        command += [f"-I{RUNTIME}", "-pthread", *(RUNTIME / "punctura_runtime" / source for source in SOURCES)]
+    subprocess.run([*command, "-o", program, "-ldl"], check=True)
+    with TemporaryDirectory() as own:  # for the files that it writes
+        output = subprocess.run([program], check=True, capture_output=True, text=True, cwd=own).stdout
     program.unlink()
     return Run({}, output, [])
 
@@ -101,6 +110,11 @@ def servo_loop(axes: Axes, run: Run) -> None:
     axes.set(xlabel="time, s", ylabel="force on the device, upwards, N")
 
 
+def healing(axes: Axes, run: Run) -> None:
+    axes.plot(*np.array(PEAK.findall(run.output), float).T, "o-", color=LINE, lw=1.5, ms=4)
+    axes.set(xlabel="rest between two insertions, s", ylabel="peak of the second one, N", ylim=(0, None))
+
+
 PICTURES: dict[str, Callable[[Axes, Run], None]] = {
     "01_pop": pop,
     "02_scene": two_walls,
@@ -109,6 +123,7 @@ PICTURES: dict[str, Callable[[Axes, Run], None]] = {
     "05_servo_loop": servo_loop,
     "06_own_device": servo_loop,
     "07_measured_tissue": printed,
+    "08_healing_law": healing,
 }
 
 

@@ -22,6 +22,12 @@ def test_a_device_of_your_own_asks_for_real_time_priority_and_is_paced_without_b
     assert loop.index("make_realtime(") < loop.index("pacer") < loop.index("pacer.wait()")
 
 
+def test_a_law_with_memory_and_time_and_all_that_is_done_with_it_takes_under_80_lines():
+    text = (EXAMPLES / "cpp/08_healing_law.cpp").read_text()
+    assert len(text.splitlines()) < 80
+    assert all(part in text for part in ("dt", "Scene", "ServoLoop", "std::async", "fopen"))
+
+
 def test_a_servo_loop_takes_ten_lines_in_cpp():
     body = (EXAMPLES / "cpp/05_servo_loop.cpp").read_text().split("int main() {\n")[1].split("\n}\n")[0]
     assert sum(not line.lstrip().startswith("//") for line in body.splitlines()) == 10

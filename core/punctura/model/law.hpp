@@ -25,6 +25,15 @@ concept ObliqueLaw = Law<L> && requires(const L law, typename L::Scalar cos_beta
   { law.pieces(cos_beta) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
 };
 
+/// A law whose memory also changes with time, for example a hole that closes.
+///
+/// advance(memory, depth, dt) is called in each step, also while the needle is outside. depth: m, along the needle. It
+/// is 0 or less while the tip is not in the wall. dt: time since the step before, s.
+template <typename L>
+concept FeelsTime = requires(const L law, typename L::Memory& memory, typename L::Scalar depth, typename L::Scalar dt) {
+  { law.advance(memory, depth, dt) } noexcept -> std::same_as<bool>;
+};
+
 /// A law that remembers how the needle changed the membrane, for example the deepest point of a cut.
 ///
 /// Memory{} is an untouched membrane. The proxy keeps the memory until it is reset, also while the needle is outside.
@@ -37,10 +46,30 @@ concept LawWithMemory =
     requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta, typename L::Scalar depth) {
       requires std::is_trivially_copyable_v<typename L::Memory>;
       /// The proxy has reached this depth (m, along the needle; greater than 0). Returns true if the pieces change.
-      { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
+      requires FeelsTime<L> || requires {
+        { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
+      };
       { law.pieces(cos_beta, memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
       { law.pieces(memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;  // on a line
     };
+
+/// Tells a law with memory where the proxy is: depth and dt as for FeelsTime. Returns true if the pieces change.
+template <LawWithMemory L>
+bool advance_memory(const L& law, typename L::Memory& memory, typename L::Scalar depth,
+                    [[maybe_unused]] typename L::Scalar dt) noexcept {
+  if constexpr (FeelsTime<L>)
+    return law.advance(memory, depth, dt);
+  else
+    return depth > 0 && law.advance(memory, depth);
+}
+/// The time step of a coupling, s, for a law that feels it.
+template <LawWithMemory L, typename C>
+typename L::Scalar time_step([[maybe_unused]] const C& coupling) noexcept {
+  if constexpr (FeelsTime<L>)
+    return coupling.period();
+  else
+    return typename L::Scalar(0);
+}
 
 /// Pieces that find a depth sooner if they know where the proxy is.
 template <typename Pieces>

@@ -57,6 +57,7 @@ struct SampledCoupling {
         inv_g(T / (K * T + B)),
         B_over_D(B / (K * T + B)) {}
 
+  Scalar period() const noexcept { return T; }  ///< s, for a law that feels time
   void describe(auto& parameters) const { parameters.numbers(K, B, T); }
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38).

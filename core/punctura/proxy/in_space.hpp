@@ -151,7 +151,7 @@ template <typename L, typename C, typename Scalar>
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
     const Scalar now = params.n.dot(p + e - params.a) / state.cos_beta;
-    if (now > 0 && params.law.advance(state.law, now)) {
+    if (advance_memory(params.law, state.law, now, time_step<L>(params.coupling))) {
       if constexpr (RefreshesPieces<L>)
         params.law.refresh(state.pieces, state.law);
       else
@@ -174,6 +174,7 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
   state.p = p;
   if constexpr (HearsLeaving<L>)
     if (state.phase == Phase::outside) params.law.leave(state.law);
+  if constexpr (FeelsTime<L>) params.law.advance(state.law, 0, params.coupling.period());  // enter() lays it out
   if constexpr (LanesThatRemember<L>)
     if (params.law.remembers()) params.law.leave(state.phase == Phase::outside);
   return {state.f, p + state.e, state.b, 0, params.n.dot(p + state.e - params.a), {0, 0}, state.phase};

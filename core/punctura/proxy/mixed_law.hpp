@@ -108,12 +108,15 @@ class MixedLaw {
   Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept { return compute_pieces(memory, cos_beta); }
   Pieces pieces(const Memory& memory) const noexcept { return compute_pieces(memory); }
 
-  bool advance(Memory& memory, Scalar depth) const noexcept {
-    bool changed = false;
-    visit([&]<std::size_t i>(const auto& law) {
-      if constexpr (LawWithMemory<Each<i>>) changed = law.advance(own<i>(memory), depth);
-    });
-    return changed;
+  bool advance(Memory& memory, Scalar depth) const noexcept
+    requires(!(FeelsTime<Laws> || ...))
+  {
+    return advance_any(memory, depth, Scalar(0));
+  }
+  bool advance(Memory& memory, Scalar depth, Scalar dt) const noexcept
+    requires(FeelsTime<Laws> || ...)
+  {
+    return advance_any(memory, depth, dt);
   }
   bool leave(Memory& memory) const noexcept
     requires(HearsLeaving<Laws> || ...)
@@ -145,6 +148,13 @@ class MixedLaw {
   template <std::size_t i>
   using Each = std::tuple_element_t<i, std::tuple<Laws...>>;
 
+  bool advance_any(Memory& memory, Scalar depth, Scalar dt) const noexcept {
+    bool changed = false;
+    visit([&]<std::size_t i>(const auto& law) {
+      if constexpr (LawWithMemory<Each<i>>) changed = advance_memory(law, own<i>(memory), depth, dt);
+    });
+    return changed;
+  }
   /// The memory of law i, which is in use.
   template <std::size_t i>
   static auto& own(Memory& memory) noexcept {

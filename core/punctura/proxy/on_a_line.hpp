@@ -83,11 +83,9 @@ const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) n
 /// The tip has left when it is outside without a force. On a wall of thickness 0 it can rest on the surface under load.
 template <typename L, typename C, typename Scalar>
 void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q, const Scalar& force) noexcept {
-  bool changed = false;
-  if (q > 0)
-    changed = params.law.advance(state.law, q);
-  else if constexpr (HearsLeaving<L>)
-    changed = force == 0 && params.law.leave(state.law);
+  bool changed = advance_memory(params.law, state.law, q, time_step<L>(params.coupling));
+  if constexpr (HearsLeaving<L>)
+    if (!(q > 0) && force == 0) changed |= params.law.leave(state.law);
   if (changed) {
     if constexpr (RefreshesPieces<L>)
       params.law.refresh(state.pieces, state.law);

@@ -70,7 +70,7 @@ class Proxy3d {
     if (!inside(state_.phase)) return;
     if constexpr (LawWithMemory<L>) {
       const auto depth = params_.n.dot(position() - params_.a) / state_.cos_beta;
-      if (depth > 0) params_.law.advance(state_.law, depth);
+      advance_memory(params_.law, state_.law, depth, Scalar(0));
     }
     lay_out(params_, state_);
   }

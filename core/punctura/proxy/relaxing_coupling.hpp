@@ -92,6 +92,7 @@ class RelaxingCoupling {
         free_share_(c.free_share) {}
   Constants constants() const noexcept { return {spring_.K, g, inv_g, free_share_, branches_, count_}; }
 
+  Scalar period() const noexcept { return spring_.period(); }  ///< s
   void describe(auto& parameters) const {
     spring_.describe(parameters);
     for (const Branch& branch : branches_) parameters.numbers(branch.a, branch.k);
