@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import datetime, timezone
 from typing import Any, cast
 
@@ -270,7 +271,7 @@ class Attempt:
         )
 
 
-def _windows(limits: list[Limit]) -> dict[int, float]:
+def _windows(limits: Sequence[Limit]) -> dict[int, float]:
     """By membrane: the time after a pop in which the overshoot is measured, s; the longest that a limit asks for."""
     windows: dict[int, float] = {}
     for index, seconds in filter(None, (limit.overshoot for limit in limits)):
@@ -278,6 +279,6 @@ def _windows(limits: list[Limit]) -> dict[int, float]:
     return windows
 
 
-def _after_yield(limits: list[Limit]) -> float:
+def _after_yield(limits: Sequence[Limit]) -> float:
     """The time after the plunger gives way in which the injected volume is measured, s."""
     return max((limit.after_yield for limit in limits if limit.after_yield is not None), default=1.0)

@@ -18,7 +18,7 @@ LEAST_PUSH_N = 0.5
 
 def course_of(file: ExerciseFile, scene: Scene) -> Course:
     """Raises ConfigurationError if the running scene lacks a membrane or the syringe of the exercise."""
-    _need_membranes(file, scene)
+    need_membranes(file, scene)
     if scene.syringe is None and judges_plunger(file):
         raise ConfigurationError(
             [Problem("scene", scene.name, "has no syringe, [syringe], whose plunger the exercise judges")]
@@ -26,7 +26,8 @@ def course_of(file: ExerciseFile, scene: Scene) -> Course:
     return Course(scene, file.start, file.space, space_of(file, scene))
 
 
-def _need_membranes(file: ExerciseFile, scene: Scene) -> None:
+def need_membranes(file: ExerciseFile, scene: Scene) -> None:
+    """Raises ConfigurationError if the scene lacks a membrane of the exercise."""
     needed = [file.space.behind, file.space.in_front_of, *(getattr(goal, "membrane", None) for goal in file.goal)]
     names = [placed.name for placed in scene.membranes]
     lacking = list(dict.fromkeys(repr(name) for name in needed if name is not None and name not in names))

@@ -10,7 +10,7 @@ from typing import TypeAlias
 from punctura.defects import explain
 from punctura.errors import ConfigurationError
 from punctura.exercise import Exercise
-from punctura.exercise.space import need_membranes
+from punctura.exercise.course import need_membranes
 from punctura.live import room_note
 from punctura.record import RecorderStatus, open_recording
 from punctura.scene import scene_names
