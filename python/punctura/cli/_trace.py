@@ -29,11 +29,19 @@ Encoding = Annotated[
     str | None, typer.Option("--encoding", help="Of a text file: gbk, shift_jis, utf-16, ...", metavar="NAME")
 ]
 Sheet = Annotated[str | None, typer.Option("--sheet", help="Sheet of a workbook, by name or number.", metavar="NAME")]
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed-mm-per-s",
+        help="Of the needle, for a file without depth: 4, or 4,0@4,-4@5 (from 4 s on 0, from 5 s on -4).",
+        metavar="SPEED",
+    ),
+]
 
 
 def reading_of(
     column: list[str] | None, unit: list[str] | None, order: str, decimal: str | None, encoding: str | None,
-    sheet: str | None,
+    sheet: str | None, speed: str | None,
 ) -> Reading:  # fmt: skip
     """What the options say about a file. Raises typer.BadParameter."""
     from punctura.trace.reading import Reading
@@ -45,7 +53,23 @@ def reading_of(
     return Reading(
         pairs(column, "--column", empty=True), pairs(unit, "--unit"), "depth" if order == "depth" else "recorded",
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
+        _speeds(speed),
     )  # fmt: skip
+
+
+def _speeds(text: str | None) -> tuple[tuple[float, float], ...]:
+    """((0, 4e-3), (4, 0)) of `4,0@4`: from which time on (s), how fast (m/s). Raises typer.BadParameter."""
+    parts = [part.partition("@") for part in (text or "").split(",") if text]
+    try:
+        speeds = tuple((float(start or 0), float(speed) * 1e-3) for speed, _, start in parts)
+    except ValueError:
+        speeds = ((math.nan, 0.0),)
+    starts = [start for start, _ in speeds]
+    if speeds and (starts[0] != 0 or sorted(set(starts)) != starts or not all(map(math.isfinite, sum(speeds, ())))):
+        raise typer.BadParameter(
+            "must be as 4 or 4,0@4,-4@5: mm/s, with growing times in s", param_hint="--speed-mm-per-s"
+        )
+    return speeds
 
 
 def pairs(given: list[str] | None, option: str, empty: bool = False) -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -16,6 +17,7 @@ from punctura.cli._trace import (
     Order,
     Point,
     Sheet,
+    Speed,
     Unit,
     needle_of,
     read_with_needle,
@@ -55,6 +57,7 @@ def command(
     decimal: Point = None,
     encoding: Encoding = None,
     sheet: Sheet = None,
+    speed: Speed = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -66,7 +69,8 @@ def command(
         typer.Option("--plan", help="Motion of the next experiment to write, for a robot.", metavar="OUT.csv"),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results of a folder of traces.", metavar="FOLDER")
+        Path | None,
+        typer.Option("--out", help="Folder for the results of a folder, or of all sheets of a file.", metavar="FOLDER"),
     ] = None,
     processes: Annotated[
         int | None, typer.Option("--processes", help="For a folder; default: all processors.", min=0)
@@ -77,16 +81,22 @@ def command(
     from punctura.identify import identify
     from punctura.identify.folder import Task
     from punctura.identify.report import report_html
+    from punctura.identify.specimens import write_specimens
     from punctura.scene.write import scene_text
 
-    stated, count = reading_of(column, unit, order, decimal, encoding, sheet), number_of(membranes)
-    if trace.is_dir():
+    stated, count = reading_of(column, unit, order, decimal, encoding, sheet, speed), number_of(membranes)
+    if trace.is_dir() or out is not None:
         if scene or report or plan:
-            raise typer.BadParameter("--scene, --report and --plan need a single trace; for a folder use --out FOLDER")
+            raise typer.BadParameter("--scene, --report and --plan need a single trace, without --out")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        _folder(trace, out, Task(needle_of(needle), count, stated), processes, as_json)
+        task = Task(needle_of(needle, trace), count, stated)
+        if not trace.is_dir():
+            folder = out / "specimens"
+            write_specimens(trace, stated, folder)
+            trace, task = folder, replace(task, reading=replace(stated, sheet=None))
+        _folder(trace, out, task, processes, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}
     for option, path in written.items():

@@ -120,7 +120,8 @@ def choose_columns(
         elif role in needed:
             problems.append(Problem("column", role, f"no column is known to be the {role}"))
             if role not in units and not any(role_of(split_name(name)[1]) == role for name in names):
-                problems.append(Problem("unit", role, f"no column has a unit of {_QUANTITIES[role]}"))
+                text = "; if the file has none, state the needle's speed, --speed-mm-per-s V" if role == "depth" else ""
+                problems.append(Problem("unit", role, f"no column has a unit of {_QUANTITIES[role]}{text}"))
     sizes = {role: _size(role, names[at], units, table, problems) for role, at in chosen.items()}
     if problems:
         raise ColumnError(source, problems, names)
@@ -159,10 +160,10 @@ def _size(role: str, name: str, units: Mapping[str, str], table: Mapping[str, Ar
     """The size of a column's unit in SI units, from `units` or from the column's name; else there is a problem more."""
     written = split_name(name)[1]
     unit = units.get(role, written)
-    if not unit and role == "time" and is_stamp(table[name]):
+    if not unit and role == "time" and (is_stamp(table[name]) or any(other.startswith("field.") for other in table)):
         unit = "ns"
     size = UNITS[role].get(unit_of(unit))
     if size is None:
         text = f"{unit!r} is no unit of the {role}" if unit else f"the unit of the {role} column {name!r} is not stated"
-        problems.append(Problem("unit", role, text if role in units else f"{text}: state it"))
+        problems.append(Problem("unit", role, text))
     return size or np.nan

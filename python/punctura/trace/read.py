@@ -16,6 +16,7 @@ from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
+from punctura.trace.motion import Speeds, about_speed, depth_from
 from punctura.trace.reading import Order, Reading
 from punctura.trace.size import check_file, check_size
 from punctura.trace.table import Table
@@ -35,6 +36,7 @@ def read_trace(
     decimal: Decimal | None = None,
     encoding: str | None = None,
     sheet: str | None = None,
+    speeds: Speeds = (),
 ) -> Trace:
     """Reads a trace file of a kind of docs/identify.md. The findings of the trace name what is unusual.
 
@@ -42,9 +44,10 @@ def read_trace(
     (`depth_mm`, `force_N`, `time_s`). units: {"depth": "mm", ...}; a unit in a column's name needs none.
     order: "depth" sorts a digitised curve of one insertion. decimal: the mark in front of decimals in a text file, and
     encoding: of its letters; None: as the file shows, and what can be read in two ways is an error. sheet: of a
-    workbook, by name or number from 1. Raises TraceError, OSError.
+    workbook, by name or number from 1. speeds: of the needle, for a file without depth: from which time on (s since the
+    first sample), how fast (m/s, inwards). Raises TraceError, OSError.
     """
-    return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet))
+    return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet, tuple(speeds)))
 
 
 def read_as(path: str | os.PathLike[str], reading: Reading) -> Trace:
@@ -115,11 +118,14 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
         }
     elif "time" in held:
         held = _with_growing_time(held, found)
-        if (left := len(held["depth"])) < 5:
+        if (left := len(held["force"])) < 5:
             raise TraceError(
                 f"{source}: {found[-1].text}. A trace needs at least 5 samples, and {left} would be left: check which "
                 "column is the time and in which order the rows are, or leave the time out"
             )
+    if reading.speeds:
+        held["depth"] = depth_from(reading.speeds, held["time"])
+        found.append(about_speed(reading.speeds, held["force"]))
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
 
 

@@ -22,8 +22,9 @@ class Reading:
     decimal: Decimal | None = None
     encoding: str | None = None
     sheet: str | None = None
+    speeds: tuple[tuple[float, float], ...] = ()
 
     @property
     def needed(self) -> tuple[str, ...]:
         """The columns that a table must have."""
-        return REQUIRED
+        return ("force", "time") if self.speeds else REQUIRED

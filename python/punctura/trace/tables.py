@@ -1,26 +1,22 @@
-"""Reads a table of numbers from Parquet, MAT, XLSX, or text."""
+"""Reads a table of numbers from a file of any kind that is known."""
 
 from __future__ import annotations
 
 from math import prod
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
-from numpy.typing import NDArray
 
 from punctura.trace.packed import check_mat
 from punctura.trace.reading import Reading
 from punctura.trace.size import check_bytes, check_names, check_size
+from punctura.trace.structured import read_json, table_of
 from punctura.trace.table import Table
 from punctura.trace.text import read_text
 from punctura.trace.trace import MissingPackage, TraceError
 from punctura.trace.unreadable import unreadable
 from punctura.trace.workbook import read_workbook
-
-Array = NDArray[np.float64]
 
 
 def read_table(path: Path, reading: Reading) -> Table:
@@ -31,6 +27,8 @@ def read_table(path: Path, reading: Reading) -> Table:
         table = read_workbook(path, reading)
     elif suffix in (".parquet", ".mat"):
         table = _parquet(path) if suffix == ".parquet" else _mat(path)
+    elif suffix in (".json", ".jsonl", ".ndjson"):
+        table = read_json(path, reading)
     else:
         table = read_text(path, reading.decimal, reading.encoding)
     if not table or not len(next(iter(table.values()))):
@@ -80,26 +78,4 @@ def _mat(path: Path) -> Table:
         raise TraceError(f"{path}: is a MAT file of version 7.3; save it again with save(..., '-v7')") from None
     except Exception as error:  # scipy raises many types for a damaged file
         raise unreadable(path, "MAT", error) from None
-    columns: dict[str, Array] = {}
-    matrices: list[Array] = []
-
-    def collect(name: str, value: Any) -> None:
-        if isinstance(value, dict):
-            for key, inner in value.items():
-                collect(key, inner)
-        elif isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind in "biuf":
-            columns[name] = value.astype(np.float64)
-        elif isinstance(value, np.ndarray) and value.ndim == 2 and value.dtype.kind in "biuf":
-            matrices.append(value.astype(np.float64))
-
-    for name, value in held.items():
-        if not name.startswith("__"):
-            collect(name, value)
-    if not columns and len(matrices) == 1:
-        check_size(path, *matrices[0].shape)
-        return Table({str(i + 1): column for i, column in enumerate(matrices[0].T)})
-    if not columns:
-        raise TraceError(f"{path}: holds neither vectors nor one matrix; save depth, force and time as one vector each")
-    longest = max(len(column) for column in columns.values())
-    check_size(path, longest, len(columns))
-    return Table({name: column for name, column in columns.items() if len(column) == longest})
+    return table_of(path, {name: value for name, value in held.items() if not name.startswith("__")})

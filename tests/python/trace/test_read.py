@@ -82,7 +82,7 @@ def test_columns_are_found_by_their_usual_names(tmp_path, name):
 def test_units_are_stated_or_asked_for(tmp_path):
     made = trace()
     path = write_csv(tmp_path / "a.csv", {"depth": made.depth * 1e3, "force_N": made.force})
-    with pytest.raises(TraceError, match=r"unit of the depth column 'depth' is not stated: .*--unit depth=UNIT"):
+    with pytest.raises(TraceError, match=r"unit of the depth column 'depth' is not stated .*--unit depth=UNIT"):
         read_trace(path)
     assert read_trace(path, units={"depth": "mm"}).depth == pytest.approx(made.depth)
     with pytest.raises(TraceError, match="'furlong' is no unit of the depth"):
