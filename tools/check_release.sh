@@ -46,10 +46,11 @@ case $repaired in *-abi3-*) say "abi3audit" && abi3audit --strict --report "$rep
 
 say "installed and used"
 python -m venv "$work/user"
-"$work/user/bin/pip" install -q "$repaired"
+"$work/user/bin/pip" install -q "$repaired"  # with what is mandatory alone
+(cd "$work" && "$work/user/bin/python" "$root/examples/python/01_pop.py")
+"$work/user/bin/pip" install -q "$repaired[all]"
 (cd "$work" && "$work/user/bin/punctura" --version && "$work/user/bin/punctura" scenes &&
   "$work/user/bin/punctura" paths &&
-  "$work/user/bin/python" "$root/examples/python/01_pop.py" &&
   "$work/user/bin/python" -c "from punctura.studio import __file__ as f; import pathlib
 assert (pathlib.Path(f).parent / 'page/index.html').is_file()")
 

@@ -44,6 +44,8 @@ ROOMS = (
     "python/punctura/batches",
     "python/punctura/__init__.py",
     "python/punctura/defects.py",
+    "python/punctura/process",
+    "python/punctura/device_words.py",
     "python/punctura/fmu",
     "python/punctura/mujoco",
     "python/punctura/gym",

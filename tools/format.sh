@@ -4,7 +4,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 source "$root/tools/setup.sh"
 source "$root/tools/steps.sh"
 
-set_up test test
+set_up test
 cd "$root"
 ruff check --fix-only --exit-zero . && ruff format .
 ours '*.hpp' '*.cpp' | xargs -0 clang-format -i

@@ -96,11 +96,12 @@ uv_dependencies() {
       --python "$venv/bin/python" -r "$root/pyproject.toml" $extras >>"$log" 2>&1 ||
     { echo "uv has failed (build/log/uv.log). pip installs the dependencies." && remove_incomplete; }
 }
-install_all() { uv_dependencies "$1" && pip_project "$root${1:+[$1]}"; }
+install_all() { uv_dependencies "$1" && pip_project "$root[$1]"; }
 
-# set_up KIND [EXTRA]: KIND is run or test; EXTRA names the optional dependencies of pyproject.toml that it needs.
+# set_up KIND: KIND is run or test.
 set_up() {
-  local kind=$1 extra=${2:-} deps sources node
+  local kind=$1 extra=all deps sources node
+  [ "$kind" = run ] || extra=test,docs  # with all, too
   export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1 PUNCTURA_KEEP_NODE_MODULES=1
   # Python keeps compiled modules; without them each start of a command takes twice as long.
   unset PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE

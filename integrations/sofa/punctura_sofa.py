@@ -1,6 +1,6 @@
 """Punctura in SOFA: a controller of SofaPython3 that gives the force of a scene to a rigid needle.
 
-It needs SOFA with SofaPython3, and `pip install punctura`. example.py shows a whole scene of SOFA.
+It needs SOFA with SofaPython3, and punctura in its Python. example.py shows a whole scene of SOFA.
 """
 
 from __future__ import annotations

@@ -160,7 +160,7 @@ if not TYPE_CHECKING:  # a type checker must not take every name for one of thes
             try:
                 return importlib.import_module(f"punctura.{name}")
             except MissingPackageError as error:
-                raise AttributeError(f"punctura.{name}: {error}") from error
+                raise AttributeError(str(error)) from error
         raise AttributeError(f"module 'punctura' has no attribute {name!r}")
 
     def __dir__() -> list[str]:

@@ -19,6 +19,7 @@ from types import TracebackType
 from punctura import __version__
 from punctura.errors import sentence_of
 from punctura.files.private import private, private_folder
+from punctura.files.user_folder import user_folder
 
 DEBUG = "PUNCTURA_DEBUG"  # 1: every traceback is printed on the terminal, too
 PATIENCE_S = 10.0  # for the log and the terminal, of a program that ends
@@ -29,9 +30,7 @@ _logged: dict[tuple[object, ...], float] = {}
 
 def log_file() -> Path:
     """The log of defects, in the operating system's folder for the state of this user's programs."""
-    import platformdirs
-
-    return Path(platformdirs.user_state_dir("punctura", appauthor=False)) / "defects.log"
+    return user_folder("state") / "defects.log"
 
 
 def is_defect(error: BaseException) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import re
+import sys
 from typing import Any
 
 from punctura._core import PuncturaError
@@ -15,13 +17,43 @@ class MissingPackageError(PuncturaError, ModuleNotFoundError):
 def optional(package: str, extra: str, user: str) -> Any:
     """The imported `package`. Raises MissingPackageError.
 
-    extra: the name in pip install 'punctura[extra]'. user: the part of Punctura that needs the package.
+    extra: that of pyproject.toml which has the package. user: the part of Punctura that needs it.
     """
     try:
         return importlib.import_module(package)
     except ModuleNotFoundError as error:
-        if error.name != package:
+        if not f"{package}.".startswith(f"{error.name}."):  # a package that this one needs
             raise
-        raise MissingPackageError(
-            f"{user} needs the package {package}. Install it: pip install 'punctura[{extra}]'", name=package
-        ) from None
+        raise missing(package, extra, user) from None
+
+
+def missing(package: str, extra: str, user: str) -> MissingPackageError:
+    """The error for a package that is not there, or not in the right version.
+
+    It tells pip the packages, not punctura[extra]: no index has punctura, and its source would be compiled again.
+    """
+    name = package.partition(".")[0]
+    command = [sys.executable, "-m", "pip", "install", *(requirements(extra) or [name])]
+    quoted = " ".join(part if re.fullmatch(r"[\w./:\\-]+", part) else f'"{part}"' for part in command)
+    text = f"{user} needs the package {name}, of the extra {extra!r}. Install it: {quoted}"
+    return MissingPackageError(text, name=name)
+
+
+def requirements(extra: str) -> list[str]:
+    """What pip installs for an extra, such as "scipy>=1.11"; empty in a copy that pip did not install."""
+    from importlib import metadata  # takes long
+
+    found: list[str] = []
+    try:
+        lines = metadata.requires("punctura") or []
+    except metadata.PackageNotFoundError:
+        return found
+    for line in lines:
+        requirement, _, condition = (part.strip() for part in line.partition(";"))
+        if re.search(rf"""\bextra == ["']{extra}["']""", condition):
+            ours = re.fullmatch(r"punctura\[(.+)\]", requirement)
+            for part in re.split(r",\s*", ours[1]) if ours else ():
+                found += requirements(part)
+            if not ours:
+                found.append(requirement)
+    return list(dict.fromkeys(found))

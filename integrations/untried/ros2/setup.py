@@ -1,4 +1,4 @@
-"""The ROS 2 package punctura_ros. Needs the Python package punctura: pip install punctura."""
+"""The ROS 2 package punctura_ros. Needs the Python package punctura with its extra files."""
 
 from setuptools import setup
 

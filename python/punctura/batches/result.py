@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura._core import Experiment, Fault, Hand, Plant, RecordedMotion, Scene, SimulatedDevice, Strokes
+from punctura.extras import optional
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -92,8 +93,7 @@ class BatchResult:
 
     def to_arrow(self) -> pa.Table:
         """A table with one row for each run: what differs, the seed, the results. "drop[0]" is that of membrane 0."""
-        import pyarrow as pa
-
+        pa = optional("pyarrow", "files", "BatchResult.to_arrow")
         columns: dict[str, npt.NDArray[np.generic]] = dict(self.vary)
         columns["seed"] = self.seeds
         for name in _OF_RUN:

@@ -1,5 +1,5 @@
 """`python -m punctura.cli` is `punctura`."""
 
-from punctura.cli._app import main
+from punctura.cli import main
 
 main()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import importlib
 import json
 import os
 import select
@@ -10,7 +11,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import typer
 
@@ -18,6 +19,7 @@ from punctura._core import Device, FedDevice, Placement, ServoLoop
 from punctura.cli._status import FAILED
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
+from punctura.extras import optional
 from punctura.live import (
     ANY_PROCESSOR,
     MODEL_FORCE,
@@ -33,8 +35,10 @@ from punctura.live import (
     run_live,
     run_notes,
 )
-from punctura.record import Recorder, RecorderStatus
 from punctura.scene import load_scene
+
+if TYPE_CHECKING:
+    from punctura.record import Recorder, RecorderStatus
 
 USUAL_SCENE = "venipuncture"
 READ_S = 1.0  # for the reader of standard output to take a piece, after a signal
@@ -107,6 +111,9 @@ class Tape:
     def __init__(self, path: Path | None, line: StatusLine) -> None:
         self.status: RecorderStatus | None = None  # how it ended
         self._path, self._line = path, line
+        if path:  # before the run, which would wait for the import
+            optional("pyarrow", "files", "--record")
+            importlib.import_module("punctura.record")
         self._fault = ""  # that was told
         self._recorder: Recorder | None = None
         self.thumb: ThumbLoop | None = None  # the second device's loop
@@ -114,6 +121,8 @@ class Tape:
     def begin(self, loop: ServoLoop) -> Callable[[], None]:
         """Raises RecordingError. Returns a function that finishes the file and prints its path."""
         if self._path:
+            from punctura.record import Recorder
+
             self._recorder = Recorder(loop, self._path, thumb=self.thumb)
         return self._finish
 

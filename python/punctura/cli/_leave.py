@@ -8,8 +8,7 @@ from typing import NoReturn
 
 from punctura.cli._status import SIGNAL
 from punctura.cli._streams import give_up_stdout
-from punctura.live import Ended
-from punctura.live.signals import ignore_more_signals
+from punctura.process.signals import Ended, ignore_more_signals
 
 
 def leave(end: Ended, more: str = "") -> NoReturn:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 
-from punctura.live import DroppingStream, RunSummary, felt_force
+from punctura.live import RunSummary, felt_force
+from punctura.process.dropping_stream import DroppingStream
 
 EVERY_S = 0.1
 

@@ -9,7 +9,7 @@ import sys
 from contextlib import suppress
 from typing import Any, TextIO, cast
 
-from punctura.live import DroppingStream
+from punctura.process.dropping_stream import DroppingStream
 
 
 def open_closed_streams() -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from punctura._core import Placement
 from punctura.cli._headless import USUAL_SCENE, Wishes, begun, say
-from punctura.live import DroppingStream
+from punctura.extras import optional
+from punctura.process.dropping_stream import DroppingStream
 
 
 def run_page(
@@ -18,6 +19,8 @@ def run_page(
 
     Raises DeviceError, Ended if a signal ended the run, StudioError (its text says what to do), ConfigurationError.
     """
+    for package in ("pyarrow", "starlette", "h11", "uvicorn", "websockets"):
+        optional(package, "studio", "the page of punctura run")
     # Imported here, because importing the server takes long.
     from punctura.exercise import load_exercise
     from punctura.studio import serve

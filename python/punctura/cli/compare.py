@@ -11,6 +11,7 @@ import typer
 from punctura import save_scene
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._trace import Column, Encoding, Order, Point, Sheet, Speed, Unit, needle_of, reading_of
+from punctura.extras import optional
 from punctura.progress import progress_bar
 
 
@@ -49,13 +50,16 @@ def command(
     compare recordings with each other.
     """
     from punctura.rivals import compare_trace, save_layers
-    from punctura.rivals.figure import SUFFIXES, save_figure
     from punctura.rivals.words import as_json as numbers
     from punctura.rivals.words import notes, table
     from punctura.trace.read import read_as, recorded_needle
 
-    if plot is not None and plot.suffix.lower() not in SUFFIXES:
-        raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--plot")
+    if plot is not None:
+        optional("matplotlib", "plots", "--plot")
+        from punctura.rivals.figure import SUFFIXES, save_figure
+
+        if plot.suffix.lower() not in SUFFIXES:
+            raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--plot")
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from punctura.cli._status import FAILED
 from punctura.progress import progress_bar
 
 
@@ -22,12 +20,8 @@ def command(
     """Converts a recording to CSV, Parquet or MCAP. Also reads the file of a run that was killed."""
     from punctura.record import export
 
-    try:
-        with progress_bar("export") as tell:
-            result = export(file, out, tell)
-    except ModuleNotFoundError as missing:
-        typer.echo(f"punctura: {missing}", err=True)
-        sys.exit(FAILED)
+    with progress_bar("export") as tell:
+        result = export(file, out, tell)
     for note in result.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     lost = f", {result.lost} lost" if result.lost else ""

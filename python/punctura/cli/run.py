@@ -26,7 +26,7 @@ from punctura.live import (
     load_limits,
     load_placement,
 )
-from punctura.live.signals import ends_on_signals
+from punctura.process.signals import ends_on_signals
 
 
 def command(

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from punctura.live import Ended
+from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
 

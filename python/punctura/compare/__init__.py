@@ -1,4 +1,9 @@
+# ruff: noqa: E402
 """Compares runs: statistics, mean curves, and the same motion with a parameter varied (docs/compare.md)."""
+
+from punctura.extras import optional
+
+optional("pyarrow", "files", "punctura.compare")  # before the imports below would fail
 
 from punctura.compare.comparison import Band, Comparison, compare
 from punctura.compare.motion import Motion, recorded_motion, stroke

@@ -2,7 +2,7 @@
 
 from punctura.events.crossing import Crossing, crossing
 from punctura.events.event import Event
+from punctura.events.find import find_events
 from punctura.events.finder import EventFinder
-from punctura.events.recorded import find_events
 
 __all__ = ["Crossing", "Event", "EventFinder", "crossing", "find_events"]

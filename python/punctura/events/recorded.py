@@ -39,15 +39,8 @@ def _new_scenes(batch: pa.RecordBatch) -> list[tuple[int, list[str]]]:
     return [(int(row), texts) for row in rows if (texts := column[int(row)].as_py())]
 
 
-def find_events(recording: Recording | Ticks, scene: Scene | None = None) -> list[Event]:
-    """All events of a recording or of Ticks. scene: replaces the recorded scene; Ticks need one.
-
-    Raises RecordingError, TypeError for Ticks without a scene.
-    """
-    if isinstance(recording, Ticks):
-        if scene is None:
-            raise TypeError("find_events of Ticks needs the scene of the run: find_events(ticks, scene)")
-        return EventFinder(scene).add(recording)
+def events_of(recording: Recording, scene: Scene | None) -> list[Event]:
+    """See find_events."""
     first = scene or recording.info.scene
     finder = EventFinder(first, first.servo.rate)
     events: list[Event] = []

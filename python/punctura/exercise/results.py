@@ -15,6 +15,7 @@ from punctura._core import PuncturaError
 from punctura.exercise.result import Result
 from punctura.files.cells import csv_line, text_cell
 from punctura.files.private import private_folder
+from punctura.files.user_folder import user_folder
 from punctura.files.whole_file import write_whole
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
@@ -36,9 +37,7 @@ class ResultsError(PuncturaError, ValueError):
 
 def default_folder() -> Path:
     """The operating system's folder for the user's data of this program."""
-    import platformdirs
-
-    return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "results"
+    return user_folder("data") / "results"
 
 
 class ResultStore:

@@ -7,16 +7,19 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from punctura.errors import ConfigurationError, Problem
-from punctura.events.recorded import recorded_ticks
 from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.load import load_exercise
 from punctura.exercise.result import Result
-from punctura.record import open_recording
+from punctura.extras import optional
 
 
 def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: str = "") -> Result:
     """The result that the recorded attempt has in the studio. Raises RecordingError, ConfigurationError."""
+    optional("pyarrow", "files", "the score of a recording")
+    from punctura.events.recorded import recorded_ticks
+    from punctura.record import open_recording
+
     opened = open_recording(recording)
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
     try:

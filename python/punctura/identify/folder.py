@@ -28,7 +28,6 @@ from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
 from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
-from punctura.trace import MissingPackage
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
@@ -170,7 +169,7 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
         trace = read_as(path, task.reading)
         told = identify(trace, task.needle, task.membranes).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
-        return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, (ImportError, MissingPackage))
+        return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, ImportError)
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from punctura.extras import optional
 from punctura.files.names import as_text
 from punctura.identify.identify import Identification
 from punctura.identify.records import IdentificationRecord
@@ -71,6 +72,7 @@ def _models(told: IdentificationRecord) -> str:
 
 def picture_png(found: Identification) -> bytes:
     """Trace and fit, residuals, and the law of each membrane."""
+    optional("matplotlib", "identify", "a report")
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(11, 8), layout="constrained")

@@ -17,8 +17,8 @@ from punctura._core import (
     needed_damping,
     open_device,
 )
+from punctura.device_words import room_note
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
-from punctura.live.dropping_stream import DroppingStream
 from punctura.live.force_words import MODEL_FORCE, felt_force
 from punctura.live.limits import Limits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
@@ -28,9 +28,9 @@ from punctura.live.pose import present_pose
 from punctura.live.run_notes import damping_note, run_notes
 from punctura.live.second import SecondDevice, SecondDeviceError, direction_of
 from punctura.live.session import run_live
-from punctura.live.signals import Ended
 from punctura.live.summary import RunSummary
-from punctura.record.room import room_note
+from punctura.process.dropping_stream import DroppingStream
+from punctura.process.signals import Ended
 from punctura.results import BackendState, LoopReport, Quantiles
 
 __all__ = [

@@ -7,14 +7,16 @@ of the entry point is the name for `--device`. status_probe.py calls `status()`.
 
 from __future__ import annotations
 
-from importlib.metadata import EntryPoint, entry_points
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from punctura import _core
 from punctura._core import Device, DeviceError
-from punctura.live.signals import Ended
 from punctura.live.status_probe import probe
+from punctura.process.signals import Ended
 from punctura.results import BackendState, DeviceState
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "punctura.devices"
 LONGEST = 500  # characters of a text that a package gives
@@ -59,6 +61,8 @@ def open_plug_in(backend: str, rate: float, device: str) -> Device:
 
 def _all() -> list[EntryPoint]:
     """In a fixed order, whatever the order of the folders on the disk."""
+    from importlib.metadata import entry_points  # takes long, and the physics does not need it
+
     found = set(entry_points(group=GROUP))
     return sorted(found, key=lambda one: (_printable(one.name), one.value.casefold(), one.value))
 

@@ -6,7 +6,7 @@ import math
 
 from punctura import Plant
 from punctura._core import ServoLoop, needed_damping
-from punctura.record.room import room_note
+from punctura.device_words import room_note
 
 
 def run_notes(loop: ServoLoop) -> list[str]:

@@ -9,9 +9,9 @@ from punctura import Scene
 from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, ServoLoop, ThumbLoop
 from punctura.live.choose import gate_for
 from punctura.live.run_notes import run_notes
-from punctura.live.signals import Ended, ends_on_signals
 from punctura.live.summary import RunSummary
 from punctura.live.supervisor import POLL_S, Supervisor
+from punctura.process.signals import Ended, ends_on_signals
 
 LATCH_S = 0.1  # for the needle's ticks to latch a fault of the second device
 

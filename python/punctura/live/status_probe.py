@@ -13,7 +13,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from importlib.metadata import EntryPoint
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 STATUS_S = 10.0  # for the import of all packages and their status(), which may search a bus
 

@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from punctura.live.signals import Signals
+from punctura.process.signals import Signals
 
 POLL_S = 0.05
 

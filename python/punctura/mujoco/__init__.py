@@ -1,6 +1,6 @@
 """Needles in MuJoCo models: `attach` adds the force of K06 between a site of the model and a body with membranes.
 
-Needs MuJoCo: pip install 'punctura[mujoco]'.
+Needs MuJoCo: the extra mujoco.
 """
 
 from punctura.mujoco.attachment import Attachment

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from punctura import ConfigurationError, DisplaySettings, Insertion, Scene, ServoSettings
-from punctura.extras import MissingPackageError, optional
+from punctura.extras import missing, optional
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.kinematics import Link
 
@@ -45,11 +45,7 @@ def attach_needles(model: Any, needles: Sequence[NeedleInTissue], *, implicit: b
     """
     mujoco = optional("mujoco", "mujoco", "punctura.mujoco")
     if int(mujoco.__version__.partition(".")[0]) < _OLDEST:  # its functions have other parameters
-        raise MissingPackageError(
-            f"punctura.mujoco needs MuJoCo {_OLDEST}, and here is {mujoco.__version__}. Install it: pip install "
-            "'punctura[mujoco]'",
-            name="mujoco",
-        )
+        raise missing("mujoco", "mujoco", f"punctura.mujoco (here is MuJoCo {mujoco.__version__}, too old)")
     if model._address in _attached:
         raise ValueError(
             "this model has an Attachment already, and the needles would act twice. Use that one, or call its "

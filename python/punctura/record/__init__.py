@@ -1,4 +1,9 @@
+# ruff: noqa: E402
 """Writes, reads and replays recordings of every tick (docs/recordings.md)."""
+
+from punctura.extras import optional
+
+optional("pyarrow", "files", "punctura.record")  # before the imports below would fail
 
 from punctura.record.errors import RecordingError
 from punctura.record.recorder import Recorder

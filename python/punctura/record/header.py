@@ -14,7 +14,8 @@ from typing import TypeAlias, TypedDict, TypeVar
 import numpy as np
 import pyarrow as pa
 
-from punctura._core import Device, Fault, ForceLimits, GateLimits, Scene, ServoLoop, ThumbLoop, describe
+from punctura._core import Device, ForceLimits, GateLimits, Scene, ServoLoop, ThumbLoop
+from punctura.device_words import statements_of, words_of
 from punctura.record.build_id import build_id, machine
 from punctura.record.description import FORMATS, Description, Value, read_description
 from punctura.record.errors import RecordingError
@@ -98,17 +99,6 @@ def describe_device(device: Device, thumb: ThumbLoop | None = None) -> DeviceRep
     if thumb is not None:
         troubles += [f"second device: {text}" for text in (words_of(thumb), thumb.device.trouble()) if text]
     return {"statements": statements_of(device, thumb), "trouble": "; ".join(filter(None, troubles))}
-
-
-def statements_of(device: Device, thumb: ThumbLoop | None) -> list[str]:
-    """What the devices say after a run."""
-    second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
-    return [*device.statements(), *second]
-
-
-def words_of(thumb: ThumbLoop) -> str:
-    """The latched fault of the second device; empty without one."""
-    return "" if thumb.fault == Fault.none else describe(thumb.fault)
 
 
 def _fields(struct: object) -> dict[str, Plain]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pyarrow as pa
 
+from punctura.extras import optional
 from punctura.record.columns import NEW_SCENES
 from punctura.record.recording import Recording
 from punctura.record.schema import in_pieces
@@ -27,15 +28,8 @@ def mcap_steps(recording: Recording, out: Any, progress: Callable[[float], None]
 
     Raises ModuleNotFoundError if the package is missing.
     """
-    yield from _Messages(_writer_class()(out), recording).steps(progress)
-
-
-def _writer_class() -> Any:
-    try:
-        from mcap.writer import Writer
-    except ModuleNotFoundError:
-        raise ModuleNotFoundError("MCAP needs the package mcap: pip install 'punctura[mcap]'", name="mcap") from None
-    return Writer
+    writer = optional("mcap.writer", "mcap", "an MCAP file").Writer
+    yield from _Messages(writer(out), recording).steps(progress)
 
 
 class _Messages:

@@ -15,12 +15,12 @@ import pyarrow as pa
 
 from punctura._core import Scene, ServoLoop, ThumbLoop
 from punctura.defects import explain
+from punctura.device_words import room_note
 from punctura.record.append_file import AppendFile
 from punctura.record.backlog import Backlog, Piece
 from punctura.record.errors import RecordingError
 from punctura.record.finish import finish_recording, part_path
 from punctura.record.header import describe_device, describe_run
-from punctura.record.room import room_note
 from punctura.record.scene_log import SceneLog
 from punctura.record.schema import raw_batch
 from punctura.record.status import RecorderStatus

@@ -1,4 +1,9 @@
+# ruff: noqa: E402
 """Force models of other authors, to fit and to feel beside K06 (docs/rivals.md)."""
+
+from punctura.extras import optional
+
+optional("pyarrow", "identify", "punctura.rivals")  # before the imports below would fail
 
 from punctura._core import Rival, RivalInsertion, rival_experiment
 from punctura.rivals.comparison import Row, TraceComparison, compare_trace

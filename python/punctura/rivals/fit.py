@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.extras import optional
 from punctura.rivals.kinds import RivalKind
 from punctura.rivals.layers import Layer
 from punctura.rivals.path import Path, path_of
@@ -115,10 +116,7 @@ def _solve(
     seen: NDArray[np.bool_] | None = None,
 ) -> tuple[Array, bool]:
     """Bounded least squares from x. seen (n,): the samples that count. Returns x, and whether it is an optimum."""
-    try:
-        from scipy.optimize import least_squares
-    except ImportError as error:
-        raise ImportError("fitting a rival needs SciPy: pip install punctura[identify]") from error
+    least_squares = optional("scipy.optimize", "identify", "the fit of a rival").least_squares
     use = slice(None) if seen is None else seen
     size = max(float(np.max(np.abs(force))), 1e-9)
 

@@ -20,6 +20,7 @@ from punctura.defects import explain
 from punctura.exercise import Result, ResultsError
 from punctura.exercise.results import to_csv, to_json
 from punctura.exercise.xapi import to_xapi
+from punctura.extras import MissingPackageError
 from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
 from punctura.studio.catalog import scene_outlines
@@ -131,8 +132,8 @@ class Api:
             raise
         try:
             return Download(pieces, self._exporting, media_type=FORMATS[kind], headers=headers)
-        except ModuleNotFoundError:
-            return _sentence(501, 'MCAP needs the package mcap: pip install "punctura[mcap]".')
+        except MissingPackageError as missing:
+            return _sentence(501, f"{missing}.")
 
     def fault_ticks(self, request: Request) -> Response:
         file = self._session.kept_ticks.csv()

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from punctura._core import Fault, ThumbLoop
-from punctura.record.header import statements_of
+from punctura.device_words import statements_of
 from punctura.results import Quantiles
 from punctura.studio.fault_words import NO_TICKS, fault_words
 from punctura.studio.hand import Mode

@@ -17,8 +17,8 @@ import uvicorn
 
 from punctura._core import DeviceError, PuncturaError
 from punctura.exercise import ResultStore
-from punctura.live.signals import ends_on_signals
 from punctura.live.supervisor import Supervisor
+from punctura.process.signals import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.catalog import Exercises
 from punctura.studio.connections import Connections, open_file_limit, room

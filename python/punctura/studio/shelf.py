@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from punctura.files.private import private_folder
+from punctura.files.user_folder import user_folder
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.lock import in_use
 from punctura.record.new_file import is_abandoned
@@ -53,9 +54,7 @@ class Entry:
 
 def default_folder() -> Path:
     """The operating system's folder for the user's data of this program."""
-    import platformdirs
-
-    return Path(platformdirs.user_data_dir("punctura", appauthor=False)) / "recordings"
+    return user_folder("data") / "recordings"
 
 
 class Shelf:

@@ -136,9 +136,6 @@ def main() -> None:
         fail(error, error.field)
     except ColumnError as error:
         fail(error, error.field)
-    except ModuleNotFoundError as error:
-        text = f"this needs the package {error.name}: pip install 'punctura[identify]'"
-        say(ErrorLine(text=words_of(text), field=""))
     except Exception as error:
         fail(error, "file" if job.task == "look" else "")
 

@@ -125,6 +125,7 @@ class Ticks(TickArrays):
 
         Of columns that are not in docs/tick.md, only those with one value per tick are included.
         """
+        optional("pyarrow", "files", "Ticks.to_arrow")
         from punctura.ticks.arrow import to_arrow
 
         return to_arrow(self, words)
@@ -141,6 +142,7 @@ class Ticks(TickArrays):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes .csv or .parquet. An existing file is replaced by the complete new one. Raises ValueError, OSError."""
+        optional("pyarrow", "files", "Ticks.save")
         from punctura.ticks.files import save
 
         save(self.to_arrow(), path)
@@ -150,6 +152,7 @@ class Ticks(TickArrays):
 
         x: default "time" if these ticks have it, else "depth". Returns the axes; `axes.figure.savefig` saves the plot.
         """
+        optional("matplotlib", "plots", "Ticks.plot")
         from punctura.ticks.plot import plot
 
         return plot(self, self.membranes, x, axes)

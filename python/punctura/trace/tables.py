@@ -8,13 +8,14 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet
 
+from punctura.extras import optional
 from punctura.trace.packed import check_mat
 from punctura.trace.reading import Reading
 from punctura.trace.size import check_bytes, check_names, check_size
 from punctura.trace.structured import read_json, table_of
 from punctura.trace.table import Table
 from punctura.trace.text import read_text
-from punctura.trace.trace import MissingPackage, TraceError
+from punctura.trace.trace import TraceError
 from punctura.trace.unreadable import unreadable
 from punctura.trace.workbook import read_workbook
 
@@ -58,10 +59,9 @@ def _is_number(kind: pa.DataType) -> bool:
 
 
 def _mat(path: Path) -> Table:
-    try:
-        from scipy.io import loadmat, whosmat
-    except ImportError:
-        raise MissingPackage(f"{path}: a MAT file needs scipy: pip install punctura[identify]") from None
+    optional("scipy.io", "identify", f"{path}: a MAT file")
+    from scipy.io import loadmat, whosmat
+
     try:
         check_mat(path, structures=False)
         variables = whosmat(path)

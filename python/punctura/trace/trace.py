@@ -31,10 +31,6 @@ class Unstated(TraceError):
         return str(self.args[0])
 
 
-class MissingPackage(TraceError):
-    """A trace cannot be read without a package that is not installed."""
-
-
 @dataclass(frozen=True)
 class Finding:
     """Something unusual in a trace. `kind` is one word for programs, `text` says what, where and what to do."""

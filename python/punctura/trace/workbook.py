@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from punctura.extras import optional
 from punctura.trace.clock import clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, decimal_in, numbers
 from punctura.trace.heading import column_names, first_row, with_unit
@@ -15,16 +16,13 @@ from punctura.trace.reading import Reading
 from punctura.trace.sheets import only_trace, wanted_sheet
 from punctura.trace.size import check_size
 from punctura.trace.table import Table
-from punctura.trace.trace import MissingPackage, TraceError
+from punctura.trace.trace import TraceError
 from punctura.trace.unreadable import unreadable
 
 
 def read_workbook(path: Path, reading: Reading) -> Table:
     """The sheet that is stated, or the only one that can be a trace. Raises TraceError, OSError."""
-    try:
-        from openpyxl import load_workbook
-    except ImportError:
-        raise MissingPackage(f"{path}: an XLSX file needs openpyxl: pip install punctura[identify]") from None
+    load_workbook = optional("openpyxl", "identify", f"{path}: an XLSX file").load_workbook
     try:
         check_workbook(path)
         book = load_workbook(path, read_only=True, data_only=True)

@@ -207,5 +207,5 @@ def test_a_population_names_an_argument_of_another_type(vary, told):
 
 def test_the_message_without_gymnasium_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "gymnasium", None)
-    with pytest.raises(ModuleNotFoundError, match=r"pip install 'punctura\[gym\]'"):
+    with pytest.raises(ModuleNotFoundError, match=r"needs the package gymnasium, of the extra 'gym'\. "):
         optional("gymnasium", "gym", "punctura.gym")

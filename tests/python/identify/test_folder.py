@@ -114,7 +114,7 @@ def test_a_file_that_lacks_a_package_is_tried_again_and_another_version_computes
     monkeypatch.setitem(sys.modules, "scipy.io", None)
     monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
     told = identify_folder(folder, out, Task(NEEDLE))
-    assert "needs scipy" in told["failed"]["a.mat"] and told["kept"] == 0
+    assert "needs the package scipy" in told["failed"]["a.mat"] and told["kept"] == 0
     monkeypatch.undo()
     monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
     told = identify_folder(folder, out, Task(NEEDLE))

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 from punctura.live import DroppingStream
-from punctura.live.dropping_stream import CUT
+from punctura.process.dropping_stream import CUT
 from terminals import BLOCKED, go_on, read_until, stop, terminal
 from waiting import PATIENCE_S, wait_until
 

@@ -5,7 +5,7 @@ import signal
 import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice, run_live
-from punctura.live.signals import Signals, ends_on_signals
+from punctura.process.signals import Signals, ends_on_signals
 
 SCENE = pn.load_scene("k06-fig10")
 
@@ -40,7 +40,7 @@ def test_a_run_goes_on_to_its_end_when_the_caller_takes_a_signal_for_itself(call
 
 
 def test_a_signal_is_not_sent_to_a_handler_that_the_caller_has_installed_after_it_came(calls, monkeypatch):
-    monkeypatch.setattr("punctura.live.signals.RETRY_S", 1e-3)
+    monkeypatch.setattr("punctura.process.signals.RETRY_S", 1e-3)
     with ends_on_signals() as signals:
         signal.set_wakeup_fd(-1)
         # As the system does, just before Python's handler runs
@@ -58,8 +58,8 @@ def test_a_main_thread_that_takes_no_signal_is_not_waited_for_without_end(monkey
         sent.append(number)
         assert len(sent) < 1000
 
-    monkeypatch.setattr("punctura.live.signals.RETRY_S", 0.0)
-    monkeypatch.setattr("punctura.live.signals.signal.pthread_kill", kill)
+    monkeypatch.setattr("punctura.process.signals.RETRY_S", 0.0)
+    monkeypatch.setattr("punctura.process.signals.signal.pthread_kill", kill)
     with ends_on_signals() as signals:
         signals._wake_socket._sender.send(bytes([signal.SIGTERM]))
         assert signals.wait(1.0)

@@ -13,7 +13,7 @@ import punctura as pn
 import pytest
 from heed import heed_signals
 from punctura.live import DeviceInfo, FedDevice, SimulatedDevice, run_live
-from punctura.live.signals import Ended
+from punctura.process.signals import Ended
 from punctura.record import open_recording
 from terminals import BLOCKED, stop, terminal, unread_pipe
 from waiting import PATIENCE_S
@@ -186,7 +186,13 @@ class Interrupts:
     """Sends a signal to this process before the n-th line that the main thread executes in these files."""
 
     FILES = (
-        *("/live/session.py", "/live/signals.py", "/live/supervisor.py", "/live/wake_socket.py", "/contextlib.py"),
+        *(
+            "/live/session.py",
+            "/process/signals.py",
+            "/live/supervisor.py",
+            "/process/wake_socket.py",
+            "/contextlib.py",
+        ),
         "/live/summary.py",
     )
 

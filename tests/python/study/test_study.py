@@ -197,7 +197,7 @@ def test_a_missing_package_is_told_without_a_traceback(tmp_path: Path, punctura,
     monkeypatch.setitem(sys.modules, "distributed", None)
     done = punctura("study", written(tmp_path, GRID), "--scheduler", "tcp://127.0.0.1:1")
     assert done.status == 1 and "Traceback" not in done.stderr
-    assert "needs the package distributed. Install it: pip install 'punctura[dask]'" in done.stderr
+    assert "needs the package distributed, of the extra 'dask'. Install it: " in done.stderr
 
 
 @pytest.mark.parametrize("blocked", ["out", "out/lock", "out/study.json", "out/pictures"])

@@ -143,7 +143,9 @@ def test_polars_gets_the_arrow_table(monkeypatch):
 @pytest.mark.parametrize("package", ["pandas", "polars"])
 def test_without_the_package_of_a_frame_it_is_said_how_to_install_it(monkeypatch, package):
     monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(ModuleNotFoundError, match=rf"Ticks.to_{package} needs the package.*punctura\[frames\]"):
+    with pytest.raises(
+        ModuleNotFoundError, match=rf"Ticks.to_{package} needs the package {package}, of the extra 'frames'"
+    ):
         getattr(simulated(), f"to_{package}")()
 
 

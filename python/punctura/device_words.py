@@ -1,8 +1,8 @@
-"""Warns if the ring holds less than a second of ticks."""
+"""What to tell about a run's devices: what they say themselves, and ticks that their listeners' buffers cannot hold."""
 
 from __future__ import annotations
 
-from punctura._core import ServoLoop
+from punctura._core import Device, Fault, ServoLoop, ThumbLoop, describe
 
 SHORT_S = 1.0  # a reader with a shorter delay must lose no tick
 
@@ -18,3 +18,14 @@ def room_note(loop: ServoLoop) -> str:
         f"{seconds:.2g} s of ticks. Ticks that are not read in time are counted as lost in recordings and views; the "
         "force is not affected. Use fewer membranes or a lower rate to lose none"
     )
+
+
+def statements_of(device: Device, thumb: ThumbLoop | None) -> list[str]:
+    """What the devices say after a run."""
+    second = [] if thumb is None else [f"second device: {text}" for text in thumb.device.statements()]
+    return [*device.statements(), *second]
+
+
+def words_of(thumb: ThumbLoop) -> str:
+    """The latched fault of the second device; empty without one."""
+    return "" if thumb.fault == Fault.none else describe(thumb.fault)

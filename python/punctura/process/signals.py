@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-from punctura.live.wake_socket import WakeSocket
+from punctura.process.wake_socket import WakeSocket
 
 RETRY_S = 0.05
 TRIES = 100

@@ -1,0 +1,1 @@
+"""The process that runs Punctura: signals that end it, and streams that never make it wait."""

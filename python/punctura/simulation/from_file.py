@@ -1,0 +1,146 @@
+"""The simulation from file to file: reads a block, runs the model over it, writes a block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura._core import Insertion, Rival, RivalInsertion, Scene
+from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.progress import Tell
+from punctura.scene import scene_text
+from punctura.simulation.depth_note import depth_note
+from punctura.simulation.even import Evenness
+from punctura.simulation.motion_error import TABLES, MotionError
+from punctura.simulation.motion_file import MotionFile
+from punctura.simulation.motion_table import MotionTable
+from punctura.simulation.rate import resampler_for
+from punctura.simulation.resample import ROWS_AT_ONCE, Resampler, unit, with_axis
+from punctura.simulation.summary import MembraneSummary, SimulationSummary
+from punctura.simulation.table import output_schema, output_table
+from punctura.ticks import Ticks
+from punctura.ticks.files import SUFFIXES, open_output
+
+Array = NDArray[np.float64]
+
+FARTHEST = 1e6  # m: positions farther away are rejected
+_SURVEY_SHARE = 0.2  # share of the progress for the first pass
+
+
+def simulate_file(
+    name: str, scene: Scene, source: Path, target: Path, tell: Tell, rivals: Sequence[Rival] | None
+) -> SimulationSummary:
+    """See simulate. name: of the scene, for the summary."""
+    began = perf_counter()
+    _check_target(source, target)
+
+    motion = MotionTable(source) if source.suffix.lower() in TABLES else MotionFile(source)
+    even = _survey(motion, tell)
+    summary = SimulationSummary(name, str(source), str(target), servo_rate_hz=scene.servo.rate)
+    summary.rows_in = even.count
+    summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
+    resampler = _resampler(even, scene, summary)
+
+    insertion = Insertion(scene) if rivals is None else RivalInsertion(scene, rivals)
+    metadata = {"punctura.scene": scene_text(scene)}
+    schema = output_schema(motion.has_axis, len(scene.membranes), metadata)
+    default_axis = np.array(scene.membranes[0].inward_normal)
+    with open_output(target, schema) as output:
+        for part in _parts(motion, resampler, tell):
+            trace = insertion.run(part.position, default_axis if part.axis is None else part.axis)
+            output.write(output_table(schema, part.time, part.position, part.axis, trace))
+            _add(summary, part, trace)
+    deepest = max(summary.membranes, key=lambda membrane: membrane.deepest_m)
+    summary.notes += filter(None, [depth_note(deepest.name, deepest.deepest_m)])
+    summary.elapsed_s = perf_counter() - began
+    return summary
+
+
+class _Part(NamedTuple):
+    """Rows that the model processes together."""
+
+    time: Array
+    position: Array
+    axis: Array | None
+
+
+def _check_target(source: Path, target: Path) -> None:
+    problems = []
+    if not source.is_file():
+        reason = "is not a file" if source.exists() else "there is no such file"
+        problems.append(Problem(f"motion {source}", MISSING, reason))
+    if target.suffix.lower() not in SUFFIXES:
+        problems.append(Problem(f"out {target}", MISSING, f"must end in {' or '.join(SUFFIXES)}"))
+    if target.is_dir():
+        problems.append(Problem(f"out {target}", MISSING, "is a folder"))
+    elif not target.parent.is_dir():
+        problems.append(Problem(f"out {target}", MISSING, f"there is no folder {target.parent}"))
+    elif source.exists() and target.exists() and source.samefile(target):
+        problems.append(Problem(f"out {target}", MISSING, "is the motion file itself; choose another name"))
+    if problems:
+        raise ConfigurationError(problems)
+
+
+def _survey(motion: MotionFile | MotionTable, tell: Tell) -> Evenness:
+    """Reads the whole motion once, so that errors are found before the computation."""
+    even = Evenness(motion.path)
+    for block in motion.blocks():
+        even.add(block.first_line, block.time)
+        far = np.flatnonzero((np.abs(block.position) > FARTHEST).any(axis=1))
+        if len(far):
+            line = block.first_line + int(far[0])
+            raise MotionError(motion.path, line, "x_m, y_m, z_m must be within 1000 km; write them in metres")
+        if block.axis is not None:
+            nowhere = np.flatnonzero(~block.axis.any(axis=1))
+            if len(nowhere):
+                line = block.first_line + int(nowhere[0])
+                raise MotionError(motion.path, line, "axis_x, axis_y, axis_z are all 0; they must give a direction")
+        tell(_SURVEY_SHARE * block.bytes_read / motion.size)
+    even.finish()
+    if not even.count:
+        raise MotionError(motion.path, 2, "there is no motion below the column names")
+    return even
+
+
+def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resampler | None:
+    """The resampler if one is needed. Adds a note to the summary."""
+    resampler = resampler_for(even, scene.servo.rate)
+    if even.step is None:
+        return None
+    summary.motion_rate_hz = 1 / even.step
+    if resampler is not None:
+        summary.resampled = True
+        summary.notes.append(
+            f"the motion is sampled at {1 / even.step:.6g} Hz, the servo runs at {scene.servo.rate:.6g} Hz: "
+            "the motion was resampled linearly"
+        )
+    return resampler
+
+
+def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, tell: Tell) -> Iterator[_Part]:
+    for block in motion.blocks():
+        for i in range(0, len(block.time), ROWS_AT_ONCE):
+            rows = slice(i, i + ROWS_AT_ONCE)
+            position, axis = block.position[rows], None if block.axis is None else block.axis[rows]
+            if resampler is None:
+                yield _Part(block.time[rows], position, axis)
+            else:
+                for stamps, values in resampler.add(position if axis is None else with_axis(position, axis)):
+                    yield _Part(stamps, values[:, :3], None if axis is None else unit(values[:, 3:]))
+            tell(_SURVEY_SHARE + (1 - _SURVEY_SHARE) * block.bytes_read / motion.size)
+
+
+def _add(summary: SimulationSummary, part: _Part, trace: Ticks) -> None:
+    if not summary.rows_out:
+        summary.start_s = float(part.time[0])
+    summary.rows_out += len(part.time)
+    summary.end_s = float(part.time[-1])
+    summary.strongest_N = max(summary.strongest_N, float(np.linalg.norm(trace.force, axis=1).max()))
+    for i, membrane in enumerate(summary.membranes):
+        membrane.deepest_m = max(membrane.deepest_m, float(trace.depth[:, i].max()))
+        membrane.strongest_N = max(membrane.strongest_N, float(np.abs(trace.axial_force[:, i]).max()))
