@@ -38,7 +38,7 @@ def command(
         Path,
         typer.Argument(
             exists=True,
-            help="CSV, Parquet, MAT or XLSX file, a recording of Punctura, or a folder of them.",
+            help="A file as machines write them (docs/identify.md), a recording of Punctura, or a folder of them.",
             metavar="TRACE",
         ),
     ],
@@ -83,19 +83,20 @@ def command(
     from punctura.identify.report import report_html
     from punctura.identify.specimens import write_specimens
     from punctura.scene.write import scene_text
+    from punctura.trace.bags import is_bag
 
     stated, count = reading_of(column, unit, order, decimal, encoding, sheet, speed), number_of(membranes)
-    if trace.is_dir() or out is not None:
+    folder = trace.is_dir() and not is_bag(trace)
+    if folder or out is not None:
         if scene or report or plan:
             raise typer.BadParameter("--scene, --report and --plan need a single trace, without --out")
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
         task = Task(needle_of(needle, trace), count, stated)
-        if not trace.is_dir():
-            folder = out / "specimens"
-            write_specimens(trace, stated, folder)
-            trace, task = folder, replace(task, reading=replace(stated, sheet=None))
+        if not folder:
+            write_specimens(trace, stated, out / "specimens")
+            trace, task = out / "specimens", replace(task, reading=replace(stated, sheet=None))
         _folder(trace, out, task, processes, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}

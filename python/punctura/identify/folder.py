@@ -31,7 +31,7 @@ from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, Tr
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
-SUFFIXES = (".csv", ".txt", ".lvm", ".tra", ".json", ".jsonl", ".parquet", ".mat", ".xlsx", ".xlsm")
+SUFFIXES = (".csv", ".txt", ".lvm", ".tra", ".json", ".jsonl", ".parquet", ".mat", ".xlsx", ".xlsm", ".tdms", ".bag")
 LONGEST = 200  # bytes of a name; a temporary file adds to it
 DIED = "its process ended early; is there enough memory?"  # tried again by the next run
 

@@ -120,7 +120,7 @@ def choose_columns(
         elif role in needed:
             problems.append(Problem("column", role, f"no column is known to be the {role}"))
             if role not in units and not any(role_of(split_name(name)[1]) == role for name in names):
-                text = "; if the file has none, state the needle's speed, --speed-mm-per-s V" if role == "depth" else ""
+                text = "; without depth, state the needle's speed (--speed-mm-per-s V)" if role == "depth" else ""
                 problems.append(Problem("unit", role, f"no column has a unit of {_QUANTITIES[role]}{text}"))
     sizes = {role: _size(role, names[at], units, table, problems) for role, at in chosen.items()}
     if problems:

@@ -9,11 +9,13 @@ import pyarrow as pa
 import pyarrow.parquet
 
 from punctura.extras import optional
+from punctura.trace.bags import is_bag, read_bag
 from punctura.trace.packed import check_mat
 from punctura.trace.reading import Reading
 from punctura.trace.size import check_bytes, check_names, check_size
 from punctura.trace.structured import read_json, table_of
 from punctura.trace.table import Table
+from punctura.trace.tdms import read_tdms
 from punctura.trace.text import read_text
 from punctura.trace.trace import TraceError
 from punctura.trace.unreadable import unreadable
@@ -24,10 +26,14 @@ def read_table(path: Path, reading: Reading) -> Table:
     """All columns of a file, or of the sheet of it that is the trace. Raises TraceError, OSError."""
     check_bytes(path)
     suffix = path.suffix.lower()
+    if is_bag(path):
+        return read_bag(path)
     if suffix in (".xlsx", ".xlsm"):
         table = read_workbook(path, reading)
     elif suffix in (".parquet", ".mat"):
         table = _parquet(path) if suffix == ".parquet" else _mat(path)
+    elif suffix == ".tdms":
+        table = read_tdms(path, reading)
     elif suffix in (".json", ".jsonl", ".ndjson"):
         table = read_json(path, reading)
     else:

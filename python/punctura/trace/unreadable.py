@@ -6,7 +6,7 @@ from pathlib import Path
 
 from punctura.trace.trace import TraceError
 
-_BEGINNINGS = {"Parquet": b"PAR1", "MAT": b"MATLAB", "XLSX": b"PK"}
+_BEGINNINGS = {"Parquet": b"PAR1", "MAT": b"MATLAB", "XLSX": b"PK", "TDMS": b"TDS", "ROS bag": b""}
 
 
 def unreadable(path: Path, kind: str, error: Exception) -> TraceError:

@@ -112,7 +112,7 @@ def test_a_stated_speed_gives_the_depth_and_a_turn_is_noticed(tmp_path):
         one for one in read_trace(tmp_path / "a.csv", speeds=[(0, speed)]).findings if one.kind == "depth_from_speed"
     ]
     assert "as if the needle turned" in finding.text and "--speed-mm-per-s" in finding.text
-    with pytest.raises(TraceError, match="if the file has none, state the needle's speed"):
+    with pytest.raises(TraceError, match="without depth, state the needle's speed"):
         read_trace(tmp_path / "a.csv")
     (tmp_path / "b.csv").write_text("\n".join(["x,force_N", *(f"{t},{f}" for t, _, f in ROWS)]))
     with pytest.raises(TraceError, match="no column is known to be the time"):
