@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "punctura/model/decimal.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {

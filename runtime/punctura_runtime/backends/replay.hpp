@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
@@ -19,32 +19,26 @@ struct ReplayOptions {
 ///
 /// Samples keep their recorded times, so that the input gate checks the recording and not the timing of the replay: the
 /// same scene and limits give the recorded forces, bit for bit. After a delay, the replay continues where it was.
-class ReplayDevice : public Device {
+class ReplayDevice : public PolledDevice {
  public:
   /// recorded: the samples' device; its rate is that of the replay. Throws DeviceError if the rate is not above 0.
   ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorded, const ReplayOptions& options = {});
   ~ReplayDevice() override { stop(); }
 
-  const DeviceInfo& info() const noexcept override { return info_; }
-  void start(Tick tick) override;  ///< from the first sample
-  void stop() noexcept override;
   LongestSilence longest_silence() const noexcept override { return LongestSilence::any(); }
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
 
-  bool finished() const noexcept { return finished_; }           ///< the last sample has been ticked
   std::size_t size() const noexcept { return samples_.size(); }  ///< samples
-  std::uint64_t behind() const noexcept { return behind_; }      ///< the delay so far, in periods
+  std::uint64_t behind() const noexcept { return missed(); }     ///< the delay so far, in periods: no sample is skipped
 
  private:
-  void run(Tick tick) noexcept;
+  void begin() override { unhealthy_ = false; }
+  Next read() noexcept override;
+  Next write(const Tick::Force&) noexcept override { return Next::tick; }
 
   std::vector<DeviceSample> samples_;
-  DeviceInfo info_;
-  ReplayOptions options_;
-  std::atomic<bool> finished_{false}, unhealthy_{false};
-  std::atomic<std::uint64_t> behind_{0};
-  TickingThread thread_;
+  std::atomic<bool> unhealthy_{false};
 };
 
 }  // namespace punctura

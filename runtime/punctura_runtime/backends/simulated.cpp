@@ -1,7 +1,5 @@
 #include "punctura_runtime/backends/simulated.hpp"
 
-#include "punctura_runtime/loop/pacer.hpp"
-
 namespace punctura {
 
 namespace {
@@ -13,7 +11,7 @@ Desired desired_at(SimulatedDevice::Motion& motion, double time) noexcept {
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
-    : options_(options),
+    : ticks_(options.ticks),
       motion_(std::move(motion)),
       plant_(options.dynamics, options.hand, 1 / options.rate, options.seed),
       wish_{to_array(desired_at(motion_, 0).position), options.axis, 0},
@@ -21,23 +19,8 @@ SimulatedDevice::SimulatedDevice(Motion motion, const SimulatedOptions& options)
   info_ = {"simulated", "PHANTOM Omni, simulated", "", true, 1, options.dynamics.max_force, Omni::continuous_force};
   info_.encoder_step = options.dynamics.encoder_step;
   info_.rate = options.rate;
+  pacing_ = {options.real_time, options.real_time, options.realtime};
   plant_.place(to_vector(wish_.target));
-}
-
-void SimulatedDevice::start(Tick tick) {
-  thread_.refuse_second_loop();
-  finished_ = false;
-  missed_ = 0;
-  thread_.start(options_.real_time ? std::optional(options_.realtime.at_rate(options_.rate)) : std::nullopt,
-                [this, tick] { run(tick); });
-}
-
-void SimulatedDevice::stop() noexcept { thread_.stop(); }
-
-std::vector<std::string> SimulatedDevice::statements() const {
-  std::vector<std::string> all;
-  os::add_words(thread_.realtime(), all);
-  return all;
 }
 
 void SimulatedDevice::move_to(const std::array<double, 3>& position) noexcept {
@@ -51,33 +34,26 @@ void SimulatedDevice::point(const std::array<double, 3>& axis, std::uint32_t but
   wishes_.write([this](Wish& to) { to = wish_; });
 }
 
-void SimulatedDevice::run(Tick tick) noexcept {
-  Pacer<> pacer(options_.rate);
-  const std::int64_t start = os::now_ns();
-  for (std::uint64_t k = 0; !thread_.stopping() && (options_.ticks == 0 || k < options_.ticks); ++k) {
-    if (options_.real_time) {
-      missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
-      one_tick(tick, k, static_cast<double>(os::now_ns() - start) * 1e-9);
-    } else {
-      one_tick(tick, k, static_cast<double>(k) / options_.rate);
-    }
-  }
-  plant_.step(Vector3d::Zero(), {plant_.tip(), Vector3d::Zero()});
-  last_force_.write([](std::array<double, 3>& to) { to = {0, 0, 0}; });
-  finished_ = true;
-}
-
-void SimulatedDevice::one_tick(Tick tick, std::uint64_t k, double time) noexcept {
+SimulatedDevice::Next SimulatedDevice::read() noexcept {
+  if (ticks_ != 0 && count() == ticks_) return Next::end;
   const Wish& wish = wishes_.read();
   if (Target* target = std::get_if<Target>(&motion_)) target->move_to(to_vector(wish.target));
   // The hand moves on the plant's own time, so that a late tick does not make it jump.
-  const Desired desired = desired_at(motion_, static_cast<double>(k) / options_.rate);
+  desired_ = desired_at(motion_, static_cast<double>(count()) / info_.rate);
+  sample_ = {count(), now(), to_array(plant_.measured()), wish.axis, wish.buttons, true};
+  if (auto* how = spoiler_.exchange(nullptr)) how(sample_);
+  return Next::tick;
+}
 
-  DeviceSample sample{k, time, to_array(plant_.measured()), wish.axis, wish.buttons, true};
-  if (auto* how = spoiler_.exchange(nullptr)) how(sample);
-  const Tick::Force force = tick(sample);
+SimulatedDevice::Next SimulatedDevice::write(const Tick::Force& force) noexcept {
   last_force_.write([&](std::array<double, 3>& to) { to = force; });
-  plant_.step(to_vector(force), desired);
+  plant_.step(to_vector(force), desired_);
+  return Next::tick;
+}
+
+void SimulatedDevice::end() noexcept {
+  desired_ = {plant_.tip(), Vector3d::Zero()};
+  write({0, 0, 0});
 }
 
 }  // namespace punctura

@@ -9,7 +9,7 @@
 #include "punctura/model/omni.hpp"
 #include "punctura/plant/motion.hpp"
 #include "punctura/plant/plant.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/triple_buffer.hpp"
 
@@ -27,25 +27,19 @@ struct SimulatedOptions {
 };
 
 /// A simulated PHANTOM Omni in a simulated hand that makes strokes, repeats a recorded motion, or follows a target.
-class SimulatedDevice : public Device {
+class SimulatedDevice : public PolledDevice {
  public:
   using Motion = std::variant<StrokesMotion, RecordedMotion, Target>;
 
   SimulatedDevice(Motion motion, const SimulatedOptions& options);
   ~SimulatedDevice() override { stop(); }
 
-  const DeviceInfo& info() const noexcept override { return info_; }
-  void start(Tick tick) override;
-  void stop() noexcept override;
   LongestSilence longest_silence() const noexcept override { return LongestSilence::any(); }
-  std::vector<std::string> statements() const override;
 
   /// Sets the position that a Target's hand moves to, m. At any time, from one thread at a time.
   void move_to(const std::array<double, 3>& position) noexcept;
   /// Sets the direction of the stylus and the pressed buttons. From the same thread.
   void point(const std::array<double, 3>& axis, std::uint32_t buttons = 0) noexcept;
-  bool finished() const noexcept { return finished_; }  ///< all `ticks` are done, or stop()
-  std::uint64_t missed() const noexcept { return missed_; }
 
   /// Test aid: changes the next reading once, to provoke a fault.
   void spoil(void (*how)(DeviceSample&)) noexcept { spoiler_.store(how); }
@@ -57,20 +51,18 @@ class SimulatedDevice : public Device {
     std::array<double, 3> target, axis;
     std::uint32_t buttons = 0;
   };
-  void run(Tick tick) noexcept;
-  void one_tick(Tick tick, std::uint64_t k, double time) noexcept;
+  Next read() noexcept override;
+  Next write(const Tick::Force& force) noexcept override;
+  void end() noexcept override;
 
-  SimulatedOptions options_;
-  DeviceInfo info_;
+  std::uint64_t ticks_;
   Motion motion_;
   Plant plant_;
+  Desired desired_{};
   Wish wish_;
   TripleBuffer<Wish> wishes_;
   TripleBuffer<std::array<double, 3>> last_force_;
   std::atomic<void (*)(DeviceSample&)> spoiler_{nullptr};
-  std::atomic<bool> finished_{false};
-  std::atomic<std::uint64_t> missed_{0};
-  TickingThread thread_;
 };
 
 }  // namespace punctura

@@ -43,7 +43,7 @@ inline FakeDrd& fake() {
 /// Here the device's thread sleeps until the test advances the fake's time to its next tick.
 class CrankedClock {
  public:
-  static force_dimension::LoopClock clock() { return {&CrankedClock::now, &CrankedClock::sleep_until}; }
+  static LoopClock clock() { return {&CrankedClock::now, &CrankedClock::sleep_until}; }
 
   static void reset() {
     auto& s = state();

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/force_dimension/measured_rate.hpp"
-#include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::force_dimension {
 
@@ -23,6 +22,7 @@ ForceDimensionDevice::ForceDimensionDevice(Options options) : options_(std::move
     throw DeviceError("the tool direction must be three finite numbers that are not all 0");
   if (!(options_.rate > 0) || !std::isfinite(options_.rate)) throw DeviceError("the rate must be above 0 Hz");
   for (double& component : options_.tool) component /= norm;
+  pacing_ = {true, true, options_.realtime, options_.clock};
   library_ = load(options_.library);
   if (library_.state != BackendStatus::State::available) throw Refusal(library_.state, library_.detail);
   open();
@@ -51,16 +51,11 @@ void ForceDimensionDevice::open() {
   if (const double measured = measured_rate(api, id_, options_.clock); measured < info_.rate) info_.rate = measured;
 }
 
-void ForceDimensionDevice::start(Tick tick) {
-  thread_.refuse_second_loop();
+void ForceDimensionDevice::begin() {
   if (!connection_) open();
-  finished_ = false;
   trouble_ = Trouble::none;
-  saturated_ = repeated_ = missed_ = 0;
-  sample_ = {};
+  saturated_ = repeated_ = 0;
   sample_.axis = to_ours(options_.tool);  // for a device without a wrist: as if the handle were straight
-  sample_.healthy = true;
-  ticks_ = 0;
   force_seen_ = false;
   status_every_ = static_cast<std::uint64_t>(std::max(1.0, std::round(info_.rate * status_interval)));
 
@@ -68,77 +63,39 @@ void ForceDimensionDevice::start(Tick tick) {
   int status[status_size] = {};
   if (api.status(status, id_) < 0) throw DeviceError(info_.model + ": " + words_for(api, api.last_error()));
   error_at_start_ = status[status_error] != 0;
-  if (!thread_.start(
-          options_.realtime.at_rate(info_.rate), [this, tick] { run(tick); }, [this] { return switch_on(); }))
-    throw DeviceError(info_.model + " does not switch its force on: " + words_for(api, code_));
 }
 
 void ForceDimensionDevice::stop() noexcept {
-  thread_.stop();  // run() switches the force off before it returns
+  PolledDevice::stop();  // the ticking thread switches the force off before it ends
   connection_.reset();
 }
 
-void ForceDimensionDevice::run(Tick tick) noexcept {
-  Pacer<LoopClock> pacer(info_.rate, options_.clock);
-  const std::int64_t start = options_.clock.now();
-  while (!thread_.stopping()) {
-    missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
-    if (!one_tick(tick, static_cast<double>(options_.clock.now() - start) * 1e-9)) break;
-  }
-  silence();
-  finished_ = true;
-}
-
 /// After memory is locked: that may take longer than the device's watchdog waits for a command.
-bool ForceDimensionDevice::switch_on() noexcept {
-  library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, without harm
-  if (library_.api.enable_force(1, id_) >= 0) return true;
-  code_ = library_.api.last_error();
-  silence();
-  finished_ = true;
-  return false;
+std::string ForceDimensionDevice::prepare() noexcept {
+  const Api& api = library_.api;
+  api.write(0, 0, 0, 0, 0, 0, 0, id_);  // may be refused while forces are off, without harm
+  if (api.enable_force(1, id_) >= 0) return {};
+  const int code = api.last_error();
+  end();
+  return info_.model + " does not switch its force on: " + words_for(api, code);
 }
 
 /// Zero force, then force off: both, even if the first fails.
-void ForceDimensionDevice::silence() noexcept {
+void ForceDimensionDevice::end() noexcept {
   library_.api.write(0, 0, 0, 0, 0, 0, 0, id_);
   library_.api.enable_force(0, id_);
 }
 
-/// False after the last tick. A fault is reported to the loop in one last tick, whose force is not used.
-bool ForceDimensionDevice::one_tick(Tick tick, double time) noexcept {
+ForceDimensionDevice::Next ForceDimensionDevice::read() noexcept {
   const Api& api = library_.api;
-  sample_.time = time;
-  if (!read() || (ticks_++ % status_every_ == 0 && !watch(time))) {
-    sample_.healthy = false;
-    tick(sample_);
-    return false;
-  }
-  sample_.healthy = trouble_.load(std::memory_order_relaxed) == Trouble::none;
-
-  Tick::Force force = tick(sample_);
-  if (!sample_.healthy) force = {0, 0, 0};
-  const Triple f = to_device(force);
-  const int written = api.write(f[0], f[1], f[2], 0, 0, 0, 0, id_);
-  if (written < 0) {
-    fail(Trouble::writing, api.last_error());
-    sample_.healthy = false;
-    tick(sample_);
-    return false;
-  }
-  if (written == motor_saturated) saturated_.fetch_add(1, std::memory_order_relaxed);
-  return true;
-}
-
-bool ForceDimensionDevice::read() noexcept {
-  const Api& api = library_.api;
+  sample_.time = now();
   double x = 0, y = 0, z = 0, frame[3][3] = {};
   const int got = api.read(&x, &y, &z, frame, id_);
   if (got < 0) {
     fail(Trouble::reading, api.last_error());
-    return false;
+    return Next::trouble;
   }
-  if (got == time_guard && ticks_ > 0) {
+  if (got == time_guard && count() > 0) {
     repeated_.fetch_add(1, std::memory_order_relaxed);
   } else {
     ++sample_.sequence;
@@ -146,11 +103,24 @@ bool ForceDimensionDevice::read() noexcept {
     if (info_.has_orientation) sample_.axis = to_ours(turned(frame, options_.tool));
   }
   sample_.buttons = api.buttons(id_);
-  return true;
+  if (count() % status_every_ == 0 && !watch()) return Next::trouble;
+  sample_.healthy = trouble_.load(std::memory_order_relaxed) == Trouble::none;
+  return Next::tick;
+}
+
+ForceDimensionDevice::Next ForceDimensionDevice::write(const Tick::Force& force) noexcept {
+  const Triple f = to_device(force);
+  const int written = library_.api.write(f[0], f[1], f[2], 0, 0, 0, 0, id_);
+  if (written < 0) {
+    fail(Trouble::writing, library_.api.last_error());
+    return Next::trouble;
+  }
+  if (written == motor_saturated) saturated_.fetch_add(1, std::memory_order_relaxed);
+  return Next::tick;
 }
 
 /// Checks the device's status. False if the query fails.
-bool ForceDimensionDevice::watch(double time) noexcept {
+bool ForceDimensionDevice::watch() noexcept {
   const Api& api = library_.api;
   int status[status_size] = {};
   if (api.status(status, id_) < 0) {
@@ -165,7 +135,7 @@ bool ForceDimensionDevice::watch(double time) noexcept {
     fail(Trouble::controller, 0);
   } else if (force_seen_ && !force) {
     fail(Trouble::force_off, status[status_force_off_cause]);
-  } else if (!force && time > time_for_force) {
+  } else if (!force && sample_.time > time_for_force) {
     fail(Trouble::force_never_on, 0);
   }
   force_seen_ = force_seen_ || force;

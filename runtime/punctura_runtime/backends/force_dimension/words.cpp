@@ -57,8 +57,7 @@ std::vector<std::string> ForceDimensionDevice::statements() const {
   if (const auto count = saturated(); count > 0)
     all.push_back("the motors could not give the whole force in " + std::to_string(count) + " ticks");
   if (const auto count = missed(); count > 0) all.push_back(std::to_string(count) + " ticks were skipped");
-  os::add_words(thread_.realtime(), all);
-  return all;
+  return with_priorities(std::move(all));
 }
 
 }  // namespace punctura::force_dimension

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "punctura_runtime/backends/haply/axes.hpp"
-#include "punctura_runtime/loop/pacer.hpp"
 
 namespace punctura::haply {
 
@@ -27,7 +26,7 @@ HaplyDevice::HaplyDevice(HaplyOptions options) : options_(std::move(options)) {
   info_.button_count = info_.has_orientation ? 3 : 0;
   info_.max_force = options_.max_force;
   fastest_ = options_.real_time ? measured_rate() : options_.rate;
-  paced_ = options_.real_time && fastest_ > options_.rate;
+  pacing_ = {options_.real_time, options_.real_time && fastest_ > options_.rate, options_.realtime};
   info_.rate = std::min(options_.rate, fastest_);
 }
 
@@ -58,51 +57,44 @@ double HaplyDevice::measured_rate() {
   return passed > 0 ? n * 1e9 / static_cast<double>(passed) : unknown;
 }
 
-void HaplyDevice::start(Tick tick) {
-  thread_.refuse_second_loop();
+void HaplyDevice::begin() {
   // The service may have closed an idle connection.
   if (!service_.is_open() || service_.exchange({0, 0, 0}, ns(1)) != Received::message) {
     open();
     if (service_.exchange({0, 0, 0}, ns(1)) != Received::message)
       throw DeviceError("The Inverse Service at " + url_.text() + " no longer answers");
   }
-  trouble_ = Trouble::none;
+  trouble_ = found_ = Trouble::none;
   gripless_ = 0;
-  thread_.start(options_.real_time ? std::optional(options_.realtime.at_rate(info_.rate)) : std::nullopt,
-                [this, tick] { run(tick); });
+  force_ = {0, 0, 0};
 }
 
 void HaplyDevice::stop() noexcept {
-  thread_.stop();
+  PolledDevice::stop();
   service_.leave();
 }
 
-void HaplyDevice::run(Tick tick) noexcept {
-  DeviceSample sample{0, 0, {0, 0, 0}, {0, -1, 0}, 0, true};
-  Pacer<> pacer(info_.rate);
-  const std::int64_t start = os::now_ns();
-  Trouble trouble = read(sample);
-  for (std::uint64_t k = 0; trouble == Trouble::none && !thread_.stopping(); ++k) {
-    sample.sequence = k;
-    sample.time =
-        options_.real_time ? static_cast<double>(os::now_ns() - start) * 1e-9 : static_cast<double>(k) / info_.rate;
-    const Tick::Force force = tick(sample);
-    if (paced_) pacer.wait();
-    if (thread_.stopping()) break;
-    trouble = next(force);
-    if (trouble == Trouble::none) trouble = read(sample);
-  }
-  service_.leave();  // zero force before anything else
-  if (trouble != Trouble::none) {
-    trouble_ = trouble;
-    sample.healthy = false;
-    tick(sample);
-  }
+HaplyDevice::Next HaplyDevice::read() noexcept {
+  found_ = count() == 0 ? Trouble::none : exchange();  // begin() has received the first answer
+  if (found_ == Trouble::none) found_ = take();
+  sample_.sequence = count();
+  sample_.time = now();
+  return found_ == Trouble::none ? Next::tick : Next::trouble;
+}
+
+HaplyDevice::Next HaplyDevice::write(const Tick::Force& force) noexcept {
+  force_ = force;
+  return Next::tick;
+}
+
+void HaplyDevice::end() noexcept {
+  service_.leave();
+  trouble_ = found_;
 }
 
 /// Sends the force of the last tick and receives the next reading.
-HaplyDevice::Trouble HaplyDevice::next(const Tick::Force& force) noexcept {
-  switch (service_.exchange(theirs(force), ns(options_.stale))) {
+HaplyDevice::Trouble HaplyDevice::exchange() noexcept {
+  switch (service_.exchange(theirs(force_), ns(options_.stale))) {
     case Received::message: return Trouble::none;
     case Received::timeout: return Trouble::no_answer;
     case Received::closed: return Trouble::closed;
@@ -113,19 +105,19 @@ HaplyDevice::Trouble HaplyDevice::next(const Tick::Force& force) noexcept {
   return Trouble::failed;
 }
 
-HaplyDevice::Trouble HaplyDevice::read(DeviceSample& sample) noexcept {
+HaplyDevice::Trouble HaplyDevice::take() noexcept {
   const State& state = service_.state();
   const Arm* arm = state.find(service_.device().view());
   if (!arm) return Trouble::gone;
   if (!arm->position) return Trouble::no_position;
   if (!arm->calibrated.value_or(true) || !arm->power_supply.value_or(true)) return Trouble::unready;
-  sample.position = ours(*arm->position);
+  sample_.position = ours(*arm->position);
 
   // Without a grip, no button counts as held, so that a dead-man button is released. The last direction is kept for
   // no_grip seconds.
   const auto axis = state.has_grip ? pointing(*state.grip.orientation) : std::nullopt;
-  sample.buttons = state.has_grip ? state.grip.buttons : 0;
-  if (axis) sample.axis = *axis;
+  sample_.buttons = state.has_grip ? state.grip.buttons : 0;
+  if (axis) sample_.axis = *axis;
   gripless_ = axis ? 0 : gripless_ + 1;
   const bool lost = info_.has_orientation && static_cast<double>(gripless_) > options_.no_grip * info_.rate;
   return lost ? Trouble::no_grip : Trouble::none;
@@ -158,8 +150,9 @@ std::vector<std::string> HaplyDevice::statements() const {
   const auto whole = [](double value) { return std::to_string(std::lround(value)); };
   std::vector<std::string> all{"haply: tested against a simulated service only"};
   if (options_.real_time)
-    all.push_back("the service answers " + whole(fastest_) + " times a second" +
-                  (paced_ ? "; the rate is " + whole(info_.rate) + " Hz" : ", less than requested: that is the rate"));
+    all.push_back(
+        "the service answers " + whole(fastest_) + " times a second" +
+        (pacing_.waits ? "; the rate is " + whole(info_.rate) + " Hz" : ", less than requested: that is the rate"));
   if (!info_.has_orientation) all.push_back("no VerseGrip: set direction = \"motion\" in the scene");
   if (was_in_use_)
     all.push_back(
@@ -167,8 +160,7 @@ std::vector<std::string> HaplyDevice::statements() const {
   if (std::abs(service_.echo() - 1) > 0.05)
     all.push_back("the service gives " + whole(100 * service_.echo()) +
                   " % of the requested force: check its force scale and force gate");
-  os::add_words(thread_.realtime(), all);
-  return all;
+  return with_priorities(std::move(all));
 }
 
 }  // namespace punctura::haply

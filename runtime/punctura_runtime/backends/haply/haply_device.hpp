@@ -9,7 +9,7 @@
 #include "punctura/device/device.hpp"
 #include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/haply/service.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura::haply {
@@ -26,14 +26,12 @@ struct HaplyOptions {
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< the clock that measures the rate; tests replace it
 };
 
-class HaplyDevice : public Device {
+class HaplyDevice : public PolledDevice {
  public:
   /// Connects, determines the format of the force, and measures the rate of the service. Throws DeviceError.
   explicit HaplyDevice(HaplyOptions options);
   ~HaplyDevice() override { stop(); }
 
-  const DeviceInfo& info() const noexcept override { return info_; }
-  void start(Tick tick) override;
   void stop() noexcept override;
   std::string trouble() const override;
   std::vector<std::string> statements() const override;
@@ -56,19 +54,22 @@ class HaplyDevice : public Device {
 
   void open();
   double measured_rate();
-  void run(Tick tick) noexcept;
-  Trouble next(const Tick::Force& force) noexcept;
-  Trouble read(DeviceSample& sample) noexcept;
+  void begin() override;
+  Next read() noexcept override;
+  Next write(const Tick::Force& force) noexcept override;
+  void end() noexcept override;
+  Trouble exchange() noexcept;
+  Trouble take() noexcept;
 
   HaplyOptions options_;
   Url url_;
-  DeviceInfo info_;
   Service service_;
-  bool paced_ = true, was_in_use_ = false;
+  bool was_in_use_ = false;
   double fastest_ = unknown;                     ///< round trips a second
   std::uint64_t gripless_ = 0;                   ///< answers in a row without a grip
+  Tick::Force force_{};                          ///< of the last tick
+  Trouble found_ = Trouble::none;                ///< by the ticking thread
   std::atomic<Trouble> trouble_{Trouble::none};  ///< once it is not `none`, close_reason() may be read
-  TickingThread thread_;
 };
 
 }  // namespace punctura::haply

@@ -5,7 +5,7 @@
 #include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_words.hpp"
-#include "punctura_runtime/backends/ticking_thread.hpp"
+#include "punctura_runtime/backends/polled_device.hpp"
 
 namespace punctura {
 
