@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
-# npm run types; tools/make_tick_table.py; tools/make_scene_keys.py
-GENERATED = ("web/src/wire/messages.ts", "web/src/wire/tick_table.ts", "capi/src/scene_keys.hpp")
+# npm run types; tools/make_tick_table.py
+GENERATED = ("web/src/wire/messages.ts", "web/src/wire/tick_table.ts")
 SOURCE_SUFFIXES = (*CPP_SUFFIXES, ".py", ".pyi", ".ts", ".sh", ".cmake")
 
 

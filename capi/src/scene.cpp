@@ -6,26 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "punctura/scene/by_path.hpp"
 #include "punctura/scene/usual.hpp"
-#include "punctura/scene/values.hpp"
 #include "structs.hpp"
 
 namespace punctura::c {
 
 namespace {
-
-template <typename Enum>
-bool take(Enum& to, const std::string& path, std::string_view word, std::vector<Problem>& problems) {
-  constexpr auto& words = words_of<Enum>;
-  if (const auto found = enum_of<Enum>(word)) {
-    to = *found;
-    return true;
-  }
-  std::string reason = "\"" + std::string(word) + "\" is unknown; it must be one of";
-  for (const auto known : words) reason += (known == words.front() ? " \"" : ", \"") + std::string(known) + "\"";
-  problems.push_back({path, not_given, reason});
-  return false;
-}
 
 /// The number at a path; nullptr if there is none.
 template <typename SceneT>
@@ -43,32 +30,6 @@ punctura_status no_path(const char* path) {
 }
 
 }  // namespace
-
-bool set_word(Scene& scene, const std::string& path, std::string_view word, std::vector<Problem>& problems) {
-  if (!check_name(word, path, problems)) return false;
-  if (path == "display.force_scale" && word == "automatic") return scene.display.automatic = true;
-  bool found = false;
-  const std::size_t before = problems.size();
-  visit_scene(scene, [&](const std::string& name, const Field&, auto& value) {
-    using Value = std::remove_reference_t<decltype(value)>;
-    if (name != path) return;
-    if constexpr (std::is_enum_v<Value>)
-      found = true, take(value, path, word, problems);
-    else if constexpr (std::is_same_v<Value, std::string>)
-      found = true, value = word;
-  });
-  if (!found) problems.push_back({path, not_given, "there is no such word in the scene"});
-  return problems.size() == before;
-}
-
-bool make_rows(Scene& scene, const std::string& list, std::size_t count) {
-  bool found = false;
-  visit_scene(scene, [&](const std::string& name, const Field&, auto& value) {
-    if constexpr (punctura::detail::is_list<std::remove_reference_t<decltype(value)>>)
-      if (name == list) found = true, value.resize(std::max(value.size(), count));
-  });
-  return found;
-}
 
 }  // namespace punctura::c
 
@@ -128,7 +89,7 @@ punctura_status punctura_scene_add_syringe(punctura_scene* scene) {
 punctura_status punctura_scene_make_rows(punctura_scene* scene, const char* list, size_t count) {
   return guarded([&] {
     if (!scene || !list) return null_pointer();
-    if (count > longest_list || !make_rows(scene->scene, list, count))
+    if (count > punctura::longest_list || !make_rows(scene->scene, list, count))
       return fail(PUNCTURA_BAD_ARGUMENT, "the scene has no list \"" + std::string(list) + "\" that can have " +
                                              std::to_string(count) + " rows");
     return ok;
@@ -173,7 +134,7 @@ punctura_status punctura_scene_set_word(punctura_scene* scene, const char* path,
   return guarded([&] {
     if (!scene || !path || !word) return null_pointer();
     std::vector<punctura::Problem> problems;
-    if (set_word(scene->scene, path, word, problems)) return ok;
+    if (punctura::ScenePlaces(scene->scene).set(path, word, problems)) return ok;
     return fail(std::move(problems));
   });
 }

@@ -1,4 +1,4 @@
-// Scenes from the text of a scene file. The keys and units are those of the Python package (scene_keys.hpp).
+// Scenes from the text of a scene file.
 #ifdef PUNCTURA_C_TOML
 // toml++ 3.3 asserts what a wrong text does not hold, and lets the compiler assume it where NDEBUG is defined. The
 // check that follows each assertion gives an error. It also declares unreachable what letters such as a Greek Nu reach
@@ -22,15 +22,13 @@
 #endif
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "punctura/model/decimal.hpp"
-#include "punctura/scene/values.hpp"
+#include "punctura/scene/by_path.hpp"
 #include "scene.hpp"
-#include "scene_keys.hpp"
 #include "scene_text.hpp"
 
 #ifdef PUNCTURA_C_TOML
@@ -42,16 +40,14 @@ namespace {
 class Reader {
  public:
   Reader(const SceneText& text, Scene& scene, std::vector<Problem>& problems)
-      : text_(text), scene_(scene), problems_(problems) {
-    find_places();
-  }
+      : text_(text), scene_(scene), problems_(problems), places_(scene) {}
 
-  /// kind: the table's name in scene_keys; path: with the number of a membrane.
+  /// kind: the table's name; path: with the number of a membrane.
   void table(const toml::table& from, std::string_view kind, const std::string& path) {
     const std::string dot = path.empty() ? "" : path + ".";
     for (const auto& [key, node] : from) {
       const SceneKey* known = nullptr;
-      for (const SceneKey& row : scene_keys)
+      for (const SceneKey& row : keys_)
         if (row.table == kind && row.key == key.str()) known = &row;
       const std::string place = dot + (is_plain_text(key.str()) ? std::string(key.str()) : "a key");
       if (known)
@@ -59,9 +55,8 @@ class Reader {
       else if (!path.empty() || !node.is_table())
         problem(place, "scene files have no such key");
     }
-    for (const SceneKey& row : scene_keys)
-      if (row.table == kind && !row.has_default && !keys.contains(dot + std::string(row.name)))
-        problem(dot + std::string(row.key), "is missing");
+    for (const SceneKey& row : keys_)
+      if (row.table == kind && row.required() && !keys.contains(dot + row.name)) problem(dot + row.key, "is missing");
   }
 
   void problem(const std::string& path, const std::string& reason) { problems_.push_back({path, not_given, reason}); }
@@ -70,24 +65,25 @@ class Reader {
 
  private:
   void value(const SceneKey& key, const toml::node& node, const std::string& dot, const std::string& place) {
-    const std::string path = dot + std::string(key.name);
+    const std::string path = dot + key.name;
     if (const auto [first, fresh] = keys.try_emplace(path, place); !fresh)
       return problem(place, "is the same as " + first->second + ": give only one of them");
     const auto word = node.value<std::string>();
-    if (key.kind == KeyKind::word && !word) return problem(place, "must be text, in quotes");
-    if (key.kind == KeyKind::word || (key.kind == KeyKind::number_or_word && word))
-      return void(set_word(scene_, path, *word, problems_));
+    const bool is_word = key.kind == KeyKind::word || key.kind == KeyKind::text;
+    if (is_word && !word) return problem(place, "must be text, in quotes");
+    if (is_word || (key.kind == KeyKind::number_or_word && word)) return void(places_.set(path, *word, problems_));
     if (key.kind == KeyKind::gauge) return gauge(node, path, place);
     if (key.kind == KeyKind::vector) return vector(key, node, path, place);
     if (key.kind == KeyKind::column) return column(key, node, path, place);
     if (!node.is_number()) return problem(place, "must be a number");
-    *places_.at(path) = in_si(node, key);
+    *places_.number(path) = in_si(node, key);
   }
 
   /// In SI units.
   double in_si(const toml::node& node, const SceneKey& key) const {
     const double value = *node.value<double>();
-    return std::isfinite(value) ? scaled_decimal(text_.number(node), key.digits, key.exponent) : value;
+    return std::isfinite(value) ? scaled_decimal(text_.number(node), key.field.file.digits, key.field.file.exponent)
+                                : value;
   }
 
   void vector(const SceneKey& key, const toml::node& node, const std::string& path, const std::string& place) {
@@ -96,7 +92,7 @@ class Reader {
                        std::all_of(numbers->begin(), numbers->end(), [](const auto& n) { return n.is_number(); });
     if (!three) return problem(place, "must be three numbers, [x, y, z]");
     for (std::size_t k = 0; k < 3; ++k)
-      *places_.at(path + "[" + std::to_string(k) + "]") = in_si(*numbers->get(k), key);
+      *places_.number(path + "[" + std::to_string(k) + "]") = in_si(*numbers->get(k), key);
   }
 
   /// A list of numbers: one field of each row of a list in the core. path: of the field, with [] for the row.
@@ -109,30 +105,28 @@ class Reader {
           place, "has " + std::to_string(numbers->size()) + " numbers; the limit is " + std::to_string(longest_list));
     const std::size_t row = path.find("[]");
     make_rows(scene_, path.substr(0, row), numbers->size());
-    find_places();
+    places_ = ScenePlaces(scene_);
     for (std::size_t i = 0; i < numbers->size(); ++i) {
       const std::string number = "[" + std::to_string(i) + "]",
                         at = path.substr(0, row) + number + path.substr(row + 2);
       keys[at] = place + number;
-      *places_.at(at) = in_si(*numbers->get(i), key);
+      *places_.number(at) = in_si(*numbers->get(i), key);
     }
-  }
-
-  void find_places() {
-    for_each_value(scene_, [&](const std::string& path, const Field&, double& number) { places_[path] = &number; });
   }
 
   void gauge(const toml::node& node, const std::string& path, const std::string& place) {
     const auto* given = node.as_integer();
+    double* const diameter = places_.number(path);
     for (const GaugeDiameter& row : gauge_diameters)
-      if (given && given->get() == row.gauge) *places_.at(path) = scaled_decimal("1", row.digits, row.exponent);
-    if (!given || std::isnan(*places_.at(path))) problem(place, "must be a whole number from 10 to 34, ISO 9626");
+      if (given && given->get() == row.gauge) *diameter = row.diameter;
+    if (!given || std::isnan(*diameter)) problem(place, "must be a whole number from 10 to 34, ISO 9626");
   }
 
   const SceneText& text_;
   Scene& scene_;
   std::vector<Problem>& problems_;
-  std::map<std::string, double*> places_;
+  ScenePlaces places_;
+  const std::vector<SceneKey> keys_ = scene_keys();
 };
 
 /// A table of the file; nullptr, with a problem, if it is none or is missing.
@@ -148,20 +142,19 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
   if (membranes && membranes->size() > max_membranes)
     return problems.push_back({"membrane", static_cast<double>(membranes->size()), too_many_membranes});
   for (std::size_t i = 0; membranes && i < membranes->size(); ++i) scene.membranes.emplace_back();
-  scene.syringe.emplace();  // so that for_each_value() visits all numbers
+  if (file.contains("syringe")) scene.syringe.emplace();
   Reader reader(text, scene, problems);
   toml::table rest = file;
   rest.erase("membrane");
   reader.table(rest, "", "");
   for (const auto& [key, node] : rest)
-    if (const std::string_view name = key.str(); node.is_table() && name != "needle" && name != "coupling" &&
-                                                 name != "servo" && name != "display" && name != "syringe")
-      reader.problem(is_plain_text(name) ? std::string(name) : "a table", "scene files have no such table");
-  for (const std::string name : {"needle", "coupling", "servo", "display"})
-    if (const auto* table = table_at(file, name, name == "needle" || name == "coupling", reader))
-      reader.table(*table, name, name);
-  const toml::table* syringe = table_at(file, "syringe", false, reader);
-  if (syringe) reader.table(*syringe, "syringe", "syringe");
+    if (node.is_table() && std::none_of(std::begin(scene_tables), std::end(scene_tables),
+                                        [&](const SceneTable& known) { return known.name == key.str(); }))
+      reader.problem(is_plain_text(key.str()) ? std::string(key.str()) : "a table", "scene files have no such table");
+  for (const SceneTable& known : scene_tables)
+    if (known.name != "" && known.name != "membrane")
+      if (const auto* table = table_at(file, known.name, known.required, reader))
+        reader.table(*table, known.name, std::string(known.name));
   if (!membranes) reader.problem("membrane", "must be an array of tables, [[membrane]]");
   for (std::size_t i = 0; membranes && i < membranes->size(); ++i) {
     const std::string path = "membrane[" + std::to_string(i) + "]";
@@ -170,7 +163,6 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
     else
       reader.problem(path, "must be a table, [[membrane]]");
   }
-  if (!syringe) scene.syringe.reset();
   if (!problems.empty()) return;
   problems = check(scene);
   for (Problem& p : problems)

@@ -44,8 +44,8 @@ void warn_unusual(const std::string& path, double value) {
   if (!unusual_warnings) return;
   const std::string advice = unusual(path, value);
   if (advice.empty()) return;
-  const std::string text = path + " = " + decimal_text(value, 6) + " " + usual_unit(path) + " is unusual. " + advice +
-                           ": all numbers are in SI units";
+  const std::string text = path + " = " + decimal_text(value, 6) + " " + std::string(scene_field(path)->unit) +
+                           " is unusual. " + advice + ": all numbers are in SI units";
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw nb::python_error();
 }
 

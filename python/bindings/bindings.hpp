@@ -51,6 +51,7 @@ void bind_proxy(nb::module_&);
 void bind_syringe(nb::module_&);
 void bind_membrane(nb::module_&);
 void bind_scene(nb::module_&);
+void bind_scene_keys(nb::module_&);
 void bind_insertion(nb::module_&);
 void bind_events(nb::module_&);
 void bind_trace(nb::module_&);

@@ -25,6 +25,7 @@ NB_MODULE(core_of_nanobind, m) {
   bind_membrane(m);
   bind_tissue_law(m);
   bind_scene(m);
+  bind_scene_keys(m);
   bind_insertion(m);
   bind_events(m);
   bind_trace(m);

@@ -75,8 +75,6 @@ Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector
   return made;
 }
 
-nb::str text(std::string_view s) { return nb::str(s.data(), s.size()); }
-
 /// A number of one scene, with its bounds.
 struct SceneField {
   std::string path;
@@ -171,22 +169,6 @@ void bind_scene_field(nb::module_& m) {
            nb::arg("min"), nb::arg("max"), nb::arg("min_open"), nb::arg("max_open"), nb::arg("reason"),
            "Scene.fields() creates these objects.");
   def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
-}
-
-template <typename Fields>
-void describe_fields(nb::list& out, const char* path, const Fields& fields, const char* prefix = "") {
-  for (const Field& field : fields) {
-    nb::dict d;
-    d["path"] = std::string(path) + "." + prefix + std::string(field.name);
-    d["symbol"] = text(field.symbol);
-    d["unit"] = text(field.unit);
-    d["min"] = field.range.min;
-    d["max"] = field.range.max;
-    d["min_open"] = field.range.min_open;
-    d["max_open"] = field.range.max_open;
-    d["reason"] = field.range.reason;
-    out.append(d);
-  }
 }
 
 }  // namespace
@@ -289,23 +271,6 @@ void bind_scene(nb::module_& m) {
             {"name", "needle", "coupling", "membranes", "servo", "direction", "display", "syringe", "relaxation"});
 
   m.def(
-      "scene_problems",
-      [](const std::string& name, const Needle& needle, const Coupling& coupling,
-         const std::vector<PlacedMembrane>& membranes, const ServoSettings& servo, const DisplaySettings& display,
-         const std::optional<SyringeSettings>& syringe, const std::vector<MaxwellBranch>& relaxation) {
-        nb::list out;
-        const Scene scene{name, needle, coupling, membranes, servo, {}, display, syringe, relaxation};
-        for (const Problem& p : check(scene)) out.append(nb::make_tuple(p.path, p.value, p.reason));
-        return out;
-      },
-      nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"), nb::arg("servo"),
-      nb::arg("display"), nb::arg("syringe") = nb::none(), nb::arg("relaxation") = nb::make_tuple(),
-      nb::sig("def scene_problems(name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
-              "servo: ServoSettings, display: DisplaySettings, syringe: SyringeSettings | None = None, relaxation: "
-              "Sequence[MaxwellBranch] = ()) -> list[tuple[str, float, str]]"),
-      "All problems of a scene that may be invalid: (path, value in SI, reason).");
-
-  m.def(
       "unusual", [](const std::string& path, double written, double size) { return unusual(path, written, size); },
       nb::arg("path"), nb::arg("written"), nb::arg("size"),
       "What to write instead of a number that is off by a factor of 1,000; empty if it is not. written: in a unit of\n"
@@ -313,26 +278,6 @@ void bind_scene(nb::module_& m) {
 
   m.def("set_unusual_warnings", &set_unusual_warnings, nb::arg("on"),
         "Sets whether constructors warn in this thread of numbers in a probably wrong unit. Returns the value before.");
-
-  m.def(
-      "fields",
-      [] {
-        nb::list out;
-        describe_fields(out, "needle", needle_fields);
-        describe_fields(out, "membrane", membrane_fields);
-        describe_fields(out, "membrane", tissue_fields);
-        describe_fields(out, "coupling", coupling_fields);
-        describe_fields(out, "coupling", branch_fields, "relaxation_");
-        describe_fields(out, "servo", servo_fields);
-        describe_fields(out, "display", display_fields);
-        describe_fields(out, "membrane", outflow_fields);
-        describe_fields(out, "membrane", outflow_behind_fields);
-        describe_fields(out, "syringe", syringe_fields);
-        describe_fields(out, "syringe", thumb_fields);
-        return out;
-      },
-      nb::sig("def fields() -> list[FieldBounds]"),
-      "Symbol, unit (SI) and bounds of every number in a scene, from the core's table.");
 }
 
 }  // namespace punctura::bindings

@@ -82,16 +82,3 @@ class BackendState(TypedDict):
     state: DeviceState
     detail: str  # where it searched, what to do
     devices: list[str]  # the names of the connected devices
-
-
-class FieldBounds(TypedDict):
-    """Symbol, unit (SI) and bounds of a number of a scene."""
-
-    path: str
-    symbol: str
-    unit: str
-    min: float
-    max: float
-    min_open: bool
-    max_open: bool
-    reason: str

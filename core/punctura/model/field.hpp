@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <tuple>
@@ -63,13 +64,19 @@ consteval FileUnit in_unit(std::string_view suffix) {
   std::abort();
 }
 
+/// The usual sizes of a number, SI. A number outside them that fits in another unit was probably meant in that one.
+struct UsualRange {
+  double low = 0, high = no_bound;
+};
+
 /// A field: its name, its symbol in K06, its unit and range in SI, and what files and forms say of it. Its default is
 /// the value that its struct has at first; a number that is not_given there must be given.
 struct Field {
   std::string_view name, symbol, unit;
   Range range{};
-  std::string_view help{};      ///< a sentence for users
-  FileUnit file{};              ///< of its key in a scene file
+  std::string_view help{};  ///< a sentence for users
+  FileUnit file{};          ///< of its key in a scene file
+  UsualRange usual{};
   std::string_view title{};     ///< in a form, where it is not the name
   std::string_view key_name{};  ///< in a key of a scene file, where it is not the name
 };
@@ -95,12 +102,12 @@ constexpr void for_each_row(const Rows& rows, Visit&& visit) {
 }
 
 /// The numbers of a table with members of several types.
-template <typename Owner, typename... Value>
+template <typename Number = double, typename Owner, typename... Value>
 constexpr auto numbers_of(const std::tuple<FieldOf<Owner, Value>...>& rows) {
-  std::array<FieldOf<Owner>, (std::size_t{std::is_same_v<Value, double>} + ...)> numbers;
+  std::array<FieldOf<Owner, Number>, (std::size_t{std::is_same_v<Value, Number>} + ...)> numbers;
   std::size_t n = 0;
   for_each_row(rows, [&](const auto& row) {
-    if constexpr (std::is_same_v<decltype(row), const FieldOf<Owner>&>) numbers[n++] = row;
+    if constexpr (std::is_same_v<decltype(row), const FieldOf<Owner, Number>&>) numbers[n++] = row;
   });
   return numbers;
 }

@@ -24,26 +24,17 @@ struct BasicKnot {
 };
 using Knot = BasicKnot<double>;
 
+// clang-format off
 inline constexpr FieldOf<Knot> knot_fields[] = {
-    {{"depth",
-      "q",
-      "m",
-      {0, 1e6},
+    {{"depth", "q", "m", {0, 1e6, false, false, "must be a number from 0 to 1e6 m"},
       "A measured profile of an infinitely thin wall, in place of grip and tail: depths of its knots.",
-      in_unit("mm"),
-      "Profile, depths"},
-     &Knot::depth},
-    {{"lower",
-      "phi_I",
-      "N",
-      {-1e6, 0},
-      "The force on the way in at each knot, 0 or less.",
-      in_unit("N"),
-      "Profile, lower"},
-     &Knot::lower},
-    {{"upper", "phi_O", "N", {-1e6, 1e6}, "The force on the way out at each knot.", in_unit("N"), "Profile, upper"},
-     &Knot::upper},
+      in_unit("mm"), {}, "Profile, depths"}, &Knot::depth},
+    {{"lower", "phi_I", "N", {-1e6, 0, false, false, "must be 0 N or less: the lower edge resists insertion"},
+      "The force on the way in at each knot, 0 or less.", in_unit("N"), {}, "Profile, lower"}, &Knot::lower},
+    {{"upper", "phi_O", "N", {-1e6, 1e6, false, false, "must be a number within 1e6 N"},
+      "The force on the way out at each knot.", in_unit("N"), {}, "Profile, upper"}, &Knot::upper},
 };
+// clang-format on
 template <>
 inline constexpr const auto& columns_of<Knot> = knot_fields;
 
@@ -84,15 +75,16 @@ bool check_profile(std::span<const Knot> knots, const std::string& path, PathOf&
     const auto add = [&](const char* field, double value, const char* reason) {
       problems.push_back({path_of(i, field), value, reason});
     };
-    if (!(depth >= 0 && depth <= 1e6)) add("depth", depth, "must be a number from 0 to 1e6 m");
+    if (!knot_fields[0].range.holds(depth)) add("depth", depth, knot_fields[0].range.reason);
     if (i == 1 && depth == knots[0].depth) add("depth", depth, "must be greater than the depth of the first knot");
     if (i > 0 && depth != knots[i - 1].depth && !(depth - knots[i - 1].depth >= 1e-9))
       add("depth", depth, "must be the depth of the knot before it, for a jump, or greater by 1e-9 m or more");
     if (i > 1 && depth == knots[i - 1].depth && depth == knots[i - 2].depth)
       add("depth", depth, "must not be the depth of both knots before it: at most two knots make a jump");
-    if (!(std::abs(lower) <= 1e6)) add("lower", lower, "must be a number within 1e6 N");
-    if (!(std::abs(upper) <= 1e6)) add("upper", upper, "must be a number within 1e6 N");
-    if (lower > 0) add("lower", lower, "must be 0 N or less: the lower edge resists insertion");
+    const Range& within = knot_fields[2].range;
+    if (!within.holds(lower)) add("lower", lower, within.reason);
+    if (!within.holds(upper)) add("upper", upper, within.reason);
+    if (lower > 0) add("lower", lower, knot_fields[1].range.reason);
     if (lower > upper) add("lower", lower, "must not be greater than upper at the same knot");
   }
   return problems.size() == before;

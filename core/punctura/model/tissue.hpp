@@ -35,9 +35,24 @@ struct BasicGripPoint {
 using GripPoint = BasicGripPoint<double>;
 
 inline constexpr FieldOf<GripPoint> grip_point_fields[] = {
-    {{"opening", "y", "m", {0, 1}, "Openings of the hole, ascending.", in_unit("mm"), "Grip table, openings"},
+    {{"opening",
+      "y",
+      "m",
+      {0, 1, false, false, "must be from 0 to 1 m"},
+      "Openings of the hole, ascending.",
+      in_unit("mm"),
+      {},
+      "Grip table, openings"},
      &GripPoint::opening},
-    {{"grip", "G", "N", {0, 1e6}, "The grip at each opening.", in_unit("N"), "Grip table, forces", "force"},
+    {{"grip",
+      "G",
+      "N",
+      {0, 1e6, false, false, "must be from 0 to 1e6 N: a wall cannot pull the needle in"},
+      "The grip at each opening.",
+      in_unit("N"),
+      {},
+      "Grip table, forces",
+      "force"},
      &GripPoint::grip},
 };
 template <>
@@ -80,60 +95,32 @@ bool is_k06(const BasicTissue<Scalar>& t) noexcept {
 }
 
 /// In the order of the struct, of files and of forms.
-inline constexpr std::tuple tissue_rows{
-    FieldOf<Tissue, GripShape>{{"grip",
-                                "",
-                                "",
-                                {},
-                                "How the wall's grip on the needle grows with the opening of the hole: linear is K06, "
-                                "exponential grows faster, table is measured."},
-                               &Tissue::grip},
-    FieldOf<Tissue>{{"growth", "b", "1/m", {}, "Of an exponential grip; 0 is linear.", in_unit("per_mm")},
-                    &Tissue::growth},
-    FieldOf<Tissue, std::vector<GripPoint>>{
-        {"grip_table", "G", "", {}, "Of a measured grip: openings (m) and grips (N).", {}, {}, "grip"},
-        &Tissue::grip_table},
-    FieldOf<Tissue>{{"tip_length",
-                     "X",
-                     "m",
-                     {0, no_bound, false, true, "must be 0 (w / tan theta) or more"},
-                     "Length of the tip along the needle; 0 is diameter / tan(tip angle).",
-                     in_unit("mm")},
-                    &Tissue::tip_length},
-    FieldOf<Tissue>{{"tail_length",
-                     "",
-                     "m",
-                     {0, no_bound, false, true, "must be 0 or more"},
-                     "The shaft's friction falls on this length behind the tip.",
-                     in_unit("mm")},
-                    &Tissue::tail_length},
-    FieldOf<Tissue>{{"tail_floor",
-                     "",
-                     "-",
-                     {0, 1, false, false, "must be from 0 to 1"},
-                     "The part of the shaft's friction that is left behind the tail; 1 is no tail."},
-                    &Tissue::tail_floor},
-    FieldOf<Tissue>{{"cutting",
-                     "C",
-                     "N",
-                     {0, no_bound, false, true, "must be 0 or more: cutting takes work"},
-                     "Force on the tip while it cuts the wall for the first time; none on a later pass.",
-                     in_unit("N")},
-                    &Tissue::cutting},
-    FieldOf<Tissue>{{"set",
-                     "",
-                     "-",
-                     {0, 1, false, false, "must be from 0 to 1"},
-                     "The part of the grip that a hole has lost once the needle has left it."},
-                    &Tissue::set},
-    FieldOf<Tissue, std::vector<Knot>>{
-        {"profile",
-         "",
-         "",
-         {},
-         "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)."},
-        &Tissue::profile},
+// clang-format off
+template <typename Scalar, typename T = BasicTissue<Scalar>>
+inline constexpr auto tissue_rows_of = std::tuple{
+    FieldOf<T, GripShape>{{"grip", "", "", {},
+      "How the wall's grip on the needle grows with the opening of the hole: linear is K06, exponential grows "
+      "faster, table is measured."}, &T::grip},
+    FieldOf<T, Scalar>{{"growth", "b", "1/m", {},
+      "Of an exponential grip; 0 is linear.", in_unit("per_mm")}, &T::growth},
+    FieldOf<T, std::vector<BasicGripPoint<Scalar>>>{{"grip_table", "G", "", {},
+      "Of a measured grip: openings (m) and grips (N).", {}, {}, {}, "grip"}, &T::grip_table},
+    FieldOf<T, Scalar>{{"tip_length", "X", "m", {0, no_bound, false, true, "must be 0 (w / tan theta) or more"},
+      "Length of the tip along the needle; 0 is diameter / tan(tip angle).", in_unit("mm")}, &T::tip_length},
+    FieldOf<T, Scalar>{{"tail_length", "", "m", {0, no_bound, false, true, "must be 0 or more"},
+      "The shaft's friction falls on this length behind the tip.", in_unit("mm")}, &T::tail_length},
+    FieldOf<T, Scalar>{{"tail_floor", "", "-", {0, 1, false, false, "must be from 0 to 1"},
+      "The part of the shaft's friction that is left behind the tail; 1 is no tail."}, &T::tail_floor},
+    FieldOf<T, Scalar>{{"cutting", "C", "N", {0, no_bound, false, true, "must be 0 or more: cutting takes work"},
+      "Force on the tip while it cuts the wall for the first time; none on a later pass.", in_unit("N")},
+      &T::cutting},
+    FieldOf<T, Scalar>{{"set", "", "-", {0, 1, false, false, "must be from 0 to 1"},
+      "The part of the grip that a hole has lost once the needle has left it."}, &T::set},
+    FieldOf<T, std::vector<BasicKnot<Scalar>>>{{"profile", "", "", {},
+      "A measured profile: depths (m), lower and upper forces of an infinitely thin wall (N)."}, &T::profile},
 };
+// clang-format on
+inline constexpr auto& tissue_rows = tissue_rows_of<double>;
 inline constexpr auto tissue_fields = numbers_of(tissue_rows);
 
 /// The largest number of points of a measured grip: the profile also needs the surface, both sides of
@@ -149,11 +136,10 @@ inline void check_grip_table(const std::vector<GripPoint>& table, const std::str
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto& [opening, grip] = table[i];
     const std::string point = path + "[" + std::to_string(i) + "]";
-    if (!(opening >= 0 && opening <= 1)) problems.push_back({point + ".opening", opening, "must be from 0 to 1 m"});
+    check_field(grip_point_fields[0], opening, point, problems);
     if (i > 0 && !(opening - table[i - 1].opening >= 1e-9))
       problems.push_back({point + ".opening", opening, "must be greater than the one before it, by 1e-9 m or more"});
-    if (!(grip >= 0 && grip <= 1e6))
-      problems.push_back({point + ".grip", grip, "must be from 0 to 1e6 N: a wall cannot pull the needle in"});
+    check_field(grip_point_fields[1], grip, point, problems);
   }
 }
 }  // namespace detail

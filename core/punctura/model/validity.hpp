@@ -25,52 +25,28 @@ inline std::string line_of(const Problem& p) {
   return p.path + (std::isnan(p.value) ? "" : " = " + decimal_text(p.value)) + ": " + p.reason;
 }
 
+// clang-format off
 inline constexpr FieldOf<Needle> needle_fields[] = {
-    {{"diameter",
-      "w",
-      "m",
-      {0, no_bound, true, true, "must be greater than 0"},
-      "Outer diameter of the shaft.",
-      in_unit("mm")},
-     &Needle::diameter},
-    {{"tip_angle",
-      "theta",
-      "rad",
+    {{"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"},
+      "Outer diameter of the shaft.", in_unit("mm"), {1e-5, 0.05}}, &Needle::diameter},
+    {{"tip_angle", "theta", "rad",
       {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"},
-      "Angle between the slanted face and the axis.",
-      in_unit("rad")},
-     &Needle::tip_angle},
+      "Angle between the slanted face and the axis.", in_unit("rad")}, &Needle::tip_angle},
 };
 
 inline constexpr FieldOf<Membrane> membrane_fields[] = {
-    {{"stiffness",
-      "kappa",
-      "N/m",
-      {0, no_bound, true, true, "must be greater than 0, K06 (15)"},
-      "Resistance of the hole to widening.",
-      in_unit("N_per_mm")},
-     &Membrane::stiffness},
-    {{"precompression",
-      "c",
-      "N",
+    {{"stiffness", "kappa", "N/m", {0, no_bound, true, true, "must be greater than 0, K06 (15)"},
+      "Resistance of the hole to widening.", in_unit("N_per_mm"), {1, 1e5}}, &Membrane::stiffness},
+    {{"precompression", "c", "N",
       {0, no_bound, false, true, "must be 0 or more: a membrane cannot pull the needle in"},
-      "Grip of the hole when it is closed.",
-      in_unit("N")},
-     &Membrane::precompression},
-    {{"friction",
-      "mu",
-      "-",
+      "Grip of the hole when it is closed.", in_unit("N"), {1e-4, 100}}, &Membrane::precompression},
+    {{"friction", "mu", "-",
       {0, no_bound, true, true, "must be greater than 0: without friction nothing holds the needle, K06 (20)"},
-      "Coefficient of dry friction between needle and membrane."},
-     &Membrane::friction},
-    {{"thickness",
-      "H",
-      "m",
-      {0, no_bound, false, true, "must be 0 (the thin law) or more"},
-      "0 is an infinitely thin membrane.",
-      in_unit("mm")},
-     &Membrane::thickness},
+      "Coefficient of dry friction between needle and membrane."}, &Membrane::friction},
+    {{"thickness", "H", "m", {0, no_bound, false, true, "must be 0 (the thin law) or more"},
+      "0 is an infinitely thin membrane.", in_unit("mm"), {1e-6, 0.1}}, &Membrane::thickness},
 };
+// clang-format on
 
 /// The angle between the needle and the membrane's inward normal. K06 Fig. 4.
 inline constexpr Field obliquity_field = {

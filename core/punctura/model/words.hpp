@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace punctura {
@@ -23,6 +24,15 @@ constexpr std::optional<Enum> enum_of(std::string_view word) noexcept {
   for (std::size_t i = 0; i < words_of<Enum>.size(); ++i)
     if (words_of<Enum>[i] == word) return static_cast<Enum>(i);
   return std::nullopt;
+}
+
+/// For a problem: one of "a", "b".
+template <typename Enum>
+std::string one_of() {
+  std::string text = "one of";
+  for (const auto word : words_of<Enum>)
+    text += (word == words_of<Enum>.front() ? " \"" : ", \"") + std::string(word) + "\"";
+  return text;
 }
 
 }  // namespace punctura

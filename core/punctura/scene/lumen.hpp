@@ -1,6 +1,7 @@
 // The lumen of a vessel: the space between the membrane with `behind = blood` and the next membrane.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,9 +35,13 @@ inline std::optional<std::pair<std::size_t, std::size_t>> lumen(const Scene& sce
   return std::nullopt;
 }
 
-/// Adds a problem if more than one membrane has blood behind it, or if no other membrane bounds the blood.
+/// Adds a problem if more than one membrane has blood behind it, or if no other membrane bounds the blood. What bounds
+/// it is not known before each membrane has a place.
 inline void check_lumen(const Scene& scene, std::vector<Problem>& problems) {
   const auto blood = static_cast<double>(Behind::blood);
+  const bool placed = std::all_of(scene.membranes.begin(), scene.membranes.end(), [](const PlacedMembrane& m) {
+    return is_place(to_vector(m.point)) && is_place(to_vector(m.inward_normal));
+  });
   std::optional<std::size_t> first;
   for (std::size_t i = 0; i < scene.membranes.size(); ++i) {
     if (scene.membranes[i].behind != Behind::blood) continue;
@@ -45,7 +50,7 @@ inline void check_lumen(const Scene& scene, std::vector<Problem>& problems) {
       problems.push_back(
           {path, blood,
            "only one membrane may have blood behind it; membrane[" + std::to_string(*first) + "] has it already"});
-    else if (first = i; !next_behind(scene, i))
+    else if (first = i; placed && !next_behind(scene, i))
       problems.push_back({path, blood, "no other membrane bounds the blood behind this one"});
   }
 }

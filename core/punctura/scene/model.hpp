@@ -62,9 +62,10 @@ RelaxingCoupling<Scalar> relaxing_coupling_of(const Scene& scene) {
 template <typename Scalar>
 BasicTissue<Scalar> tissue_as(const Tissue& tissue) {
   const auto to = [](double x) { return static_cast<Scalar>(x); };
-  BasicTissue<Scalar> made{tissue.grip,           to(tissue.growth),      {},
-                           to(tissue.tip_length), to(tissue.tail_length), to(tissue.tail_floor),
-                           to(tissue.cutting),    to(tissue.set),         {}};
+  BasicTissue<Scalar> made;
+  made.grip = tissue.grip;
+  constexpr auto numbers = numbers_of<Scalar>(tissue_rows_of<Scalar>);
+  for (std::size_t i = 0; i < numbers.size(); ++i) made.*numbers[i].member = to(tissue.*tissue_fields[i].member);
   for (const GripPoint& p : tissue.grip_table) made.grip_table.push_back({to(p.opening), to(p.grip)});
   for (const Knot& k : tissue.profile) made.profile.push_back({to(k.depth), to(k.lower), to(k.upper)});
   return made;

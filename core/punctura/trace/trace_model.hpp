@@ -51,12 +51,10 @@ template <typename Scalar>
 BasicTissue<Scalar> tissue_of(const std::array<Scalar, trace_membrane_names.size()>& p) {
   BasicTissue<Scalar> tissue;
   tissue.grip = p[6] == 0 ? GripShape::linear : GripShape::exponential;
-  tissue.tip_length = p[5];
-  tissue.growth = p[6];
-  tissue.tail_length = p[7];
-  tissue.tail_floor = p[8];
-  tissue.cutting = p[9];
-  tissue.set = p[10];
+  constexpr auto numbers = numbers_of<Scalar>(tissue_rows_of<Scalar>);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (const auto& number : numbers)
+      if (number.name == trace_membrane_names[i]) tissue.*number.member = p[i];
   return tissue;
 }
 

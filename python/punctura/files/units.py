@@ -5,8 +5,7 @@ from __future__ import annotations
 from decimal import Context, Decimal
 from typing import NamedTuple
 
-# pi/180 with more digits than a double, so that an angle in degrees is rounded only once.
-_RAD_PER_DEG = Decimal("0.017453292519943295769236907684886127134428718885417")
+from punctura._core import file_units
 
 # Precise enough that products of file values lose no digit. An overflow gives infinity, as with doubles.
 _EXACT = Context(prec=2000, traps=[])
@@ -19,31 +18,16 @@ class Unit(NamedTuple):
     si: Decimal
 
 
-UNITS = {
-    "mm": Unit("mm", Decimal("0.001")),
-    "rad": Unit("rad", Decimal(1)),
-    "deg": Unit("deg", _RAD_PER_DEG),
-    "s": Unit("s", Decimal(1)),
-    "ms": Unit("ms", Decimal("0.001")),
-    "m_per_s": Unit("m/s", Decimal(1)),
-    "hz": Unit("Hz", Decimal(1)),
-    "N": Unit("N", Decimal(1)),
-    "per_mm": Unit("1/mm", Decimal(1000)),
-    "N_per_mm": Unit("N/mm", Decimal(1000)),
-    "Ns_per_mm": Unit("N s/mm", Decimal(1000)),
-    "mL": Unit("mL", Decimal("1e-6")),
-    "kPa": Unit("kPa", Decimal(1000)),
-    "mL_per_kPa": Unit("mL/kPa", Decimal("1e-9")),
-    "kPa_s_per_mL": Unit("kPa s/mL", Decimal("1e9")),
-}
+# By the end of a key. A longer one stands before one that is its end.
+UNITS = {suffix: Unit(name, Decimal(size)) for suffix, name, size in file_units()}
 _NO_UNIT = Unit("", Decimal(1))
 
 
 def split_key(key: str) -> tuple[str, Unit]:
     """Splits a key into field name and unit: `thickness_mm` gives (`thickness`, mm). A key may have no unit."""
-    for suffix in sorted(UNITS, key=len, reverse=True):
+    for suffix, unit in UNITS.items():
         if key.endswith("_" + suffix):
-            return key[: -len(suffix) - 1], UNITS[suffix]
+            return key[: -len(suffix) - 1], unit
     return key, _NO_UNIT
 
 

@@ -1,48 +1,30 @@
 """Finds all problems of a scene file's tables, in the file's own keys and units.
 
-The schema finds wrong types, the core finds wrong values, in one pass: a value of the wrong type is replaced by a
-harmless one while the core checks the others.
+The schema finds wrong types, the core finds wrong values, in one pass: what the schema has refused is not given to the
+core, which checks the others.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from typing import Any
 
 from pydantic import ValidationError
 
-from punctura import _core
+from punctura._core import gauge_diameters
 from punctura.errors import MISSING, Problem
 from punctura.files.tables import Location, Schema, location_of, shown
 from punctura.files.toml import Tables
 from punctura.files.units import split_key, to_si
-from punctura.scene.build import Parts, scene_parts
-from punctura.scene.gauges import GAUGE_DIAMETER_MM
-from punctura.scene.schema import (
-    ALTERNATIVES,
-    ROWS,
-    CouplingTable,
-    DisplayTable,
-    MembraneTable,
-    NeedleTable,
-    SceneFile,
-    ServoTable,
-    SyringeTable,
-)
+from punctura.scene.build import Parts
+from punctura.scene.schema import ALTERNATIVES, KEYS, MODELS, ROWS, SceneFile
 
 _SCHEMA = Schema(
     SceneFile,
-    {
-        "needle": NeedleTable,
-        "coupling": CouplingTable,
-        "servo": ServoTable,
-        "display": DisplayTable,
-        "syringe": SyringeTable,
-    },
-    {"membrane": MembraneTable},
+    {name: model for name, model in MODELS.items() if name != "membrane"},
+    {"membrane": MODELS["membrane"]},
 )
 _EXERCISE = "this is an exercise, not a scene; punctura run --exercise FILE lists it in the tab Exercises of the page"
 _ENOUGH = 100  # membranes to check: more than the core allows, and few enough to report all their problems
@@ -78,8 +60,8 @@ def _alternative_problems(data: Mapping[str, object]) -> Iterator[Problem]:
         elif one not in needle and other not in needle:
             yield Problem(f"needle.{one}", MISSING, f"is missing; give either {one} or {other}")
     gauge = needle.get("gauge")
-    if type(gauge) is int and gauge not in GAUGE_DIAMETER_MM:
-        low, high = min(GAUGE_DIAMETER_MM), max(GAUGE_DIAMETER_MM)
+    if type(gauge) is int and gauge not in gauge_diameters():
+        low, high = min(gauge_diameters()), max(gauge_diameters())
         yield Problem("needle.gauge", gauge, f"must be a gauge of ISO 9626, {low} to {high}")
 
 
@@ -106,31 +88,30 @@ def _size(value: object) -> int:
 
 
 def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Problem]:
-    parts: Parts = scene_parts(data, unsound)
+    parts = Parts(data, unsound)
     problems = []
-    name, needle, coupling, membranes, servo, _direction, display, *others = parts.arguments
-    for path, value, reason in _core.scene_problems(name, needle, coupling, membranes, servo, display, *others):
-        if path in parts.stand_ins:
+    for path, value, reason in parts.scene()[1]:
+        if path in parts.left_out:
             continue
         key_path = parts.keys.get(path, path)
         given = _lookup(data, key_path)
         told = value if given is None else shown(given)
-        problems.append(Problem(key_path, told, reason + _bound_in_unit(path, key_path, value)))
+        problems.append(Problem(key_path, told, reason + _bound_in_unit(key_path, value)))
     return problems
 
 
-def _bound_in_unit(path: str, key_path: str, value: float) -> str:
+def _bound_in_unit(key_path: str, value: object) -> str:
     """The broken bound in the key's unit, if that is not the core's unit: `(at most 90 deg)`."""
     unit = split_key(key_path)[1]
     if not isinstance(value, float) or not math.isfinite(value) or unit.si == 1:
         return ""
-    for field in _core.fields():
-        if field["path"] != re.sub(r"\[\d+\]", "", path):
+    table, *_, name = location_of(key_path)
+    for key in KEYS[str(table)]:
+        if key.key != name:
             continue
-        low, high = field["min"], field["max"]
         for broken, bound, word in (
-            (value <= low, low, "more than" if field["min_open"] else "at least"),
-            (value >= high, high, "less than" if field["max_open"] else "at most"),
+            (value <= key.min, key.min, "more than" if key.min_open else "at least"),
+            (value >= key.max, key.max, "less than" if key.max_open else "at most"),
         ):
             if broken and bound != 0 and math.isfinite(bound):
                 return f" ({word} {bound / to_si(Decimal(1), unit):g} {unit.name})"

@@ -9,7 +9,7 @@ from punctura import _core
 from punctura.files.tables import Location, location_of
 from punctura.files.toml_lines import key_lines
 from punctura.files.units import split_key
-from punctura.scene.build import scene_parts
+from punctura.scene.build import Parts
 from punctura.scene.schema import SceneFile
 
 
@@ -25,7 +25,9 @@ def unusual_numbers(scene_file: SceneFile, text: str = "", source: str = "") -> 
 
 
 def _sentences(data: Mapping[str, object], lines: Mapping[Location, int], source: str) -> Iterator[str]:
-    for path, key_path in scene_parts(data).keys.items():
+    for path, key_path in Parts(data).keys.items():
+        if "." not in path:
+            continue
         table, *numbers, key = location_of(key_path)
         owner = data[str(table)]
         if numbers and isinstance(owner, list) and isinstance(numbers[0], int):

@@ -4,67 +4,50 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel
-
-from punctura._core import DisplaySettings, Membrane, PlacedMembrane, Scene, SyringeSettings, Tissue
+from punctura._core import Scene, scene_values
 from punctura.files.units import from_si, split_key
 from punctura.files.whole_file import write_whole
-from punctura.scene.schema import (
-    ROWS,
-    CouplingTable,
-    DisplayTable,
-    MembraneTable,
-    NeedleTable,
-    SceneFile,
-    ServoTable,
-    SyringeTable,
-)
-
-_DENSE = PlacedMembrane("", Membrane.unchecked(1, 0, 1, 0), (0, 0, 0), (0, -1, 0)).outflow  # the default
-_SKIPPED = ("gauge", "tip_angle_deg")  # the alternatives of diameter_mm and tip_angle_rad
-# Written only where they differ from K06's membrane.
-_ONLY_MEASURED = (
-    "grip", "growth_per_mm", "tip_length_mm", "tail_length_mm", "tail_floor", "cutting_N", "set",
-)  # fmt: skip
+from punctura.scene.schema import KEYS, SceneFile, in_file
 
 
 def scene_text(scene: Scene) -> str:
     """TOML from which load_scene reads the same scene, bit for bit."""
-    lines = [f"name = {_string(scene.name)}"]
-    needle = {"diameter": scene.needle.diameter, "tip_angle": scene.needle.tip_angle, "direction": scene.direction}
-    lines += _table("[needle]", NeedleTable, needle)
-    branches = [(branch.stiffness, branch.time_constant) for branch in scene.relaxation]
-    coupling = _attributes(scene.coupling, CouplingTable) | _lists("coupling", {"relaxation": branches})
-    lines += _table("[coupling]", CouplingTable, coupling)
-    lines += _table("[servo]", ServoTable, _attributes(scene.servo, ServoTable))
-    if scene.display != DisplaySettings():
-        lines += _table("[display]", DisplayTable, _attributes(scene.display, DisplayTable))
-    if scene.syringe is not None:
-        lines += _table("[syringe]", SyringeTable, _syringe(scene.syringe))
-    for placed in scene.membranes:
-        values = _attributes(placed.membrane, MembraneTable) | _attributes(placed, MembraneTable) | _outflow(placed)
-        values |= _tissue(placed.tissue)
-        lines += _table("[[membrane]]", MembraneTable, values)
+    values = scene_values(scene)
+    lines: list[str] = []
+    for table, keys in KEYS.items():
+        for i in range(len(scene.membranes) if table == "membrane" else 1):
+            dot = "" if not table else f"membrane[{i}]." if table == "membrane" else f"{table}."
+            given = [(key, values.get(dot + key.name)) for key in keys if not key.instead_of]
+            lines += _table(table, [
+                f"{key.key} = {_value(value, split_key(key.key)[1])}" for key, value in given
+                if value is not None and value != [] and not (key.sparse and value == key.default)
+            ])  # fmt: skip
     return "\n".join(lines) + "\n"
 
 
 def file_text(file: SceneFile) -> str:
     """TOML of a scene file's tables, with every number in its original key, unit and digits."""
-    lines = [f"name = {_string(file.name)}"]
-    for head, table in (("[needle]", file.needle), ("[coupling]", file.coupling), ("[servo]", file.servo)):
-        lines += ["", head, *_given(table)]
-    if file.display != DisplayTable():
-        lines += ["", "[display]", *_given(file.display)]
-    if file.syringe is not None:
-        lines += ["", "[syringe]", *_given(file.syringe)]
-    for membrane in file.membrane:
-        lines += ["", "[[membrane]]", *_given(membrane)]
+    lines: list[str] = []
+    for table, keys in KEYS.items():
+        given = getattr(file, table) if table else file
+        for one in given if isinstance(given, list) else [given] if given is not None else []:
+            written = [(key, getattr(one, key.key)) for key in keys]
+            lines += _table(table, [
+                f"{key.key} = {_as_given(value)}" for key, value in written
+                if value is not None and value != () and not (key.sparse and value == in_file(key, key.default))
+            ])  # fmt: skip
     return "\n".join(lines) + "\n"
+
+
+def _table(table: str, body: list[str]) -> Iterator[str]:
+    if table and body:
+        yield from ("", f"[[{table}]]" if table == "membrane" else f"[{table}]")
+    yield from body
 
 
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
@@ -76,64 +59,12 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     write_whole(Path(path), scene_text(scene).encode("utf-8"))
 
 
-def _attributes(struct: object, model: type[BaseModel]) -> dict[str, object]:
-    names = [split_key(key)[0] for key in model.model_fields]
-    return {name: getattr(struct, name) for name in names if hasattr(struct, name)}
-
-
-def _syringe(settings: SyringeSettings) -> dict[str, object]:
-    thumb = {"thumb_stiffness": settings.thumb.stiffness, "thumb_damping": settings.thumb.damping}
-    return _attributes(settings.syringe, SyringeTable) | thumb
-
-
-def _outflow(placed: PlacedMembrane) -> dict[str, float]:
-    """Empty for tissue that takes no liquid, as in most scenes."""
-    values: dict[str, float] = {}
-    for name, outlet in (("outflow", placed.outflow), ("behind", placed.outflow_behind)):
-        if outlet != _DENSE:
-            values |= {f"{name}_resistance": outlet.resistance, f"{name}_pressure": outlet.pressure}
-    return values
-
-
-def _tissue(tissue: Tissue) -> dict[str, object]:
-    """Only what differs from K06's membrane."""
-    none = Tissue()
-    values = {name: value for name, value in _attributes(tissue, MembraneTable).items() if value != getattr(none, name)}
-    return values | _lists("membrane", {"grip_table": tissue.grip_table, "profile": tissue.profile})
-
-
-def _lists(kind: str, rows: Mapping[str, Sequence[tuple[float, ...]]]) -> dict[str, object]:
-    """Rows of the core as the lists of a table (schema.ROWS); empty ones are left out."""
-    lists: dict[str, object] = {}
-    for name, columns in ROWS[kind].items():
-        if rows[name]:
-            each = zip(columns, zip(*rows[name], strict=True), strict=True)
-            lists |= {split_key(key)[0]: list(column) for key, column in each}
-    return lists
-
-
-def _table(head: str, model: type[BaseModel], values: Mapping[str, object]) -> list[str]:
-    lines = ["", head]
-    for key in model.model_fields:
-        name, unit = split_key(key)
-        if key not in _SKIPPED and name in values:  # keys that only describe are not in a Scene
-            lines.append(f"{key} = {_value(values[name], unit)}")
-    return lines
-
-
 def _value(value: Any, unit: Any) -> str:
     if isinstance(value, str):
         return _string(value)
     if isinstance(value, (float, int)):
         return _number(from_si(float(value), unit))
     return "[" + ", ".join(_value(float(v), unit) for v in value) + "]"
-
-
-def _given(table: BaseModel) -> list[str]:
-    fields = type(table).model_fields
-    left_out = {key for key, value in table if value is None or (value == () and fields[key].default == ())}
-    left_out |= {key for key, value in table if key in _ONLY_MEASURED and value == fields[key].default}
-    return [f"{key} = {_as_given(value)}" for key, value in table if key not in left_out]
 
 
 def _as_given(value: Any) -> str:

@@ -6,7 +6,7 @@ import json
 import math
 
 from punctura import ServoSettings, scene_json_schema
-from punctura._core import fields
+from punctura._core import scene_keys
 from punctura.files.units import split_key
 
 TABLES = {
@@ -36,22 +36,19 @@ def test_every_key_has_title_help_and_type():
 
 def test_every_number_of_the_core_is_in_the_schema_with_its_bounds_in_its_unit():
     seen = 0
-    for field in fields():
-        table, name = field["path"].split(".")
-        for key, entry in properties(TABLES[table]).items():
-            if split_key(key)[0] != name or key == "gauge":
-                continue
-            seen += 1
-            scale = float(split_key(key)[1].si)
-            number = entry["anyOf"][0] if "anyOf" in entry else entry.get("items", entry)
-            if math.isfinite(field["min"]):
-                low = number["exclusiveMinimum" if field["min_open"] else "minimum"]
-                assert math.isclose(low * scale, field["min"])
-            if math.isfinite(field["max"]):
-                high = number["exclusiveMaximum" if field["max_open"] else "maximum"]
-                assert math.isclose(high * scale, field["max"])
-            assert entry["x-reason"] == field["reason"]
-    assert seen == len(fields()) + 1  # the tip angle has two keys
+    for key in scene_keys():
+        if key.kind not in ("number", "number_or_word", "column"):
+            continue
+        seen += 1
+        entry = properties(TABLES[key.table])[key.key]
+        scale = float(split_key(key.key)[1].si)
+        number = entry["anyOf"][0] if "anyOf" in entry else entry.get("items", entry)
+        if math.isfinite(key.min):
+            assert math.isclose(number["exclusiveMinimum" if key.min_open else "minimum"] * scale, key.min)
+        if math.isfinite(key.max):
+            assert math.isclose(number["exclusiveMaximum" if key.max_open else "maximum"] * scale, key.max)
+        assert entry["x-reason"] == key.reason
+    assert seen == 39
 
 
 def test_the_tip_angle_in_degrees_stays_below_90():

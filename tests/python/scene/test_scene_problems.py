@@ -82,7 +82,7 @@ ONE_PROBLEM = {
     ),
     "a solver that is none": (
         ("[coupling]", "[servo]\nsolver = 'fast'\n[coupling]"),
-        "servo.solver = 'fast': must be 'exact' or 'paper'",
+        "servo.solver = 'fast': must be 'paper' or 'exact'",
     ),
     "a conditioning that is none": (
         ("[coupling]", "[servo]\nconditioning = 'smooth'\n[coupling]"),

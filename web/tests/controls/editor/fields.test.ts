@@ -30,7 +30,7 @@ test("a field has its unit, symbol, bounds and help", () => {
   });
   expect(field("needle", "tip_angle_deg").most).toEqual({ value: 90, open: true });
   expect(field("membrane", "point_mm").kind).toBe("vector");
-  expect(field("servo", "solver").options).toEqual(["exact", "paper"]);
+  expect(field("servo", "solver").options).toEqual(["paper", "exact"]);
 });
 
 test("pairs of which exactly one is given are found, and what the gauges are in mm", () => {
