@@ -72,10 +72,10 @@ def candidates(role: str, names: Sequence[str], taken: Collection[int] = ()) -> 
 
 
 def by_unit(role: str, names: Sequence[str], taken: Collection[int] = ()) -> list[int]:
-    """The columns that have a unit of this one and a name that is not known."""
+    """The columns that have a unit of this one and a name that is not known. `g` may be a mass or an acceleration."""
     split = [split_name(name) for name in names]
     return [i for i, (name, unit) in enumerate(split) if role_of(unit) == role and not role_named(name)
-            and i not in taken]  # fmt: skip
+            and i not in taken and not (name and role == "force" and unit.endswith("f"))]  # fmt: skip
 
 
 def choose_columns(

@@ -45,12 +45,13 @@ def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:
     return len(row) == width and bool(cells) and all(is_number(cell, decimal) for cell in cells)
 
 
-def column_names(above: Sequence[Row], width: int) -> list[str]:
+def column_names(above: Sequence[Row], width: int, least: int | None = None) -> list[str]:
     """Names for `width` columns from the rows above the numbers: the last row, with the units of a row below it.
 
-    Without names, the columns have their numbers, from 1.
+    least: so many must be there, where the last columns are empty. Without names, the columns have their numbers, from
+    1.
     """
-    fitting = [_texts(row, width) for row in above[-2:]]
+    fitting = [_texts(row, width, least or width) for row in above[-2:]]
     names = next(iter(fitting[-1:]), None)
     if names is not None and len(fitting) == 2 and fitting[0] is not None and _are_units(names):
         names = [with_unit(name, unit) for name, unit in zip(fitting[0], names, strict=True)]
@@ -65,9 +66,10 @@ def unique(names: Iterable[str]) -> list[str]:
     return seen
 
 
-def _texts(row: Row, width: int) -> list[str] | None:
+def _texts(row: Row, width: int, least: int) -> list[str] | None:
     """The cells as texts if they can be names: as many as columns, some text, no number."""
     cells = ["" if cell is None else str(cell).strip() for cell in row]
+    cells += [""] * (width - len(cells) if len(cells) >= least else 0)
     while len(cells) > width and not cells[-1]:
         cells.pop()
     named = len(cells) == width and any(cells) and not any(is_number(cell) for cell in row)

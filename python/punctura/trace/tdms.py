@@ -44,6 +44,6 @@ def _table(path: Path, group: Any) -> Table:
             if values.dtype.kind == "M":
                 values, unit = (values - values[0]) / np.timedelta64(1, "s"), "s"
             columns[with_unit(channel.name, unit)] = np.asarray(values, np.float64)
-            if "wf_increment" in channel.properties and "time [s]" not in columns:
-                columns["time [s]"] = channel.time_track()
+            if step := float(channel.properties.get("wf_increment", 0.0)):
+                columns.setdefault("time [s]", step * np.arange(rows))
     return Table(dict(zip(unique(columns), columns.values(), strict=True)))

@@ -19,12 +19,13 @@ from numpy.typing import NDArray
 from punctura.trace.clock import clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
-from punctura.trace.heading import column_names, first_row, with_unit
+from punctura.trace.heading import column_names, first_row
 from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, read_lines, survey
 from punctura.trace.lvm import is_lvm, lvm_lines
 from punctura.trace.size import check_bytes, check_size
 from punctura.trace.table import Table
 from punctura.trace.trace import Finding, TraceError, Unstated
+from punctura.trace.units import split_name
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -65,7 +66,8 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
     if first == len(above):
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
-    names = column_names([_cells(line.lstrip("#% "), delimiter) for line in head[:first]], width)
+    empty = min(next((i for i, cell in enumerate(row[::-1]) if cell), width) for row in last)  # columns at the end
+    names = column_names([_cells(line.lstrip("#% "), delimiter) for line in head[:first]], width, width - empty)
     rows = _Rows(pieces, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
     cells, left_out = _parsed(path, rows, names, delimiter)
     table = Table()
@@ -73,7 +75,7 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
         for name in names:
             clock = is_clock(cells[name].slice(0, LOOKED_AT).to_pylist())
             read = clock_seconds(cells[name].to_pylist()) if clock else _numbers(cells[name], mark, decimal is not None)
-            table[with_unit(name, "s") if clock else name] = np.insert(read, left_out, np.nan)
+            table[f"{split_name(name)[0]} [s]" if clock else name] = np.insert(read, left_out, np.nan)
     except DoubtfulNumber as doubt:
         text = (
             f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate"

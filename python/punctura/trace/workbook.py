@@ -9,7 +9,7 @@ from typing import Any
 from punctura.extras import optional
 from punctura.trace.clock import clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, decimal_in, numbers
-from punctura.trace.heading import column_names, first_row, with_unit
+from punctura.trace.heading import column_names, first_row
 from punctura.trace.lines import LOOKED_AT
 from punctura.trace.packed import check_workbook
 from punctura.trace.reading import Reading
@@ -17,6 +17,7 @@ from punctura.trace.sheets import only_trace, wanted_sheet
 from punctura.trace.size import check_size
 from punctura.trace.table import Table
 from punctura.trace.trace import TraceError
+from punctura.trace.units import split_name
 from punctura.trace.unreadable import unreadable
 
 
@@ -47,7 +48,7 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     for i, name in enumerate(column_names(rows[:first], width) if first < len(rows) else ()):
         cells = [row[i] for row in rows[first:]]
         clock = is_clock(cells)
-        table[with_unit(name, "s") if clock else name] = (
+        table[f"{split_name(name)[0]} [s]" if clock else name] = (
             clock_seconds(cells) if clock else numbers(cells, mark, decimal is not None)
         )
     return table

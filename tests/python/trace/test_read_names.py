@@ -44,6 +44,10 @@ HEADS = {
     "Japanese": written("時間(秒)\tストローク(mm)\t試験力(N)"),
     "Chinese": written("时间（s）\t位移（mm）\t试验力（kN）", force="kN"),
     "Anton Paar": written("Time (s)\tPd (µm)\tFn (mN)\tFnRef (mN)", "um", "mN", order="tdff"),
+    "a mark behind the last column": written("Time (s)\tDepth (mm)\tForce (N)")
+    .replace("\n", "\t\n")
+    .replace(")\t\n", ")\n"),
+    "a mass and an acceleration": written("Time (s),Depth (mm),Force (N),Sample (g),ax (g)", order="tdfdt", mark=","),
     "capital between words": written("timeUs,depthMm,forceN", time="us", mark=","),
     "units as names": written("sec,in,ozf", "in", "ozf", mark=","),
     "a name of somebody": written("run (s),tip went to (mil),felt (dyn)", "mil", "dyn", mark=","),
@@ -174,6 +178,20 @@ def test_many_lost_rows_are_severe_and_nothing_else_is_concluded(tmp_path):
     assert finding.kind == "rows_without_numbers" and finding.severe and "200 of" in finding.text
 
 
+def test_intervals_of_a_rheometer_and_blocks_of_a_testing_machine_are_one_trace(tmp_path):
+    lines = written("", order="tdf").splitlines()[1:]
+    again = ["", "Interval data:\tPoint No.\tTime\tTravel\tNormal Force\tStatus", "\t[]\t[s]\t[mm]\t[N]\t[]"]
+    rows = [f"\t{i}\t{line}\tDy_auto" for i, line in enumerate(lines, 1)]
+    text = "\n".join(
+        ["Project:\tx", "Interval and data points:\t2\t700\t700", *again, *rows[:700], *again, *rows[700:]]
+    )
+    (tmp_path / "a.csv").write_text(text.replace(".", ",") + "\n", encoding="utf-16")
+    assert [one.kind for one in check(tmp_path / "a.csv").findings] == ["rows_without_numbers"]
+    again = ["", "Data Acquisition:\tTimed\tTime:\t3\tSec", "Time\tAxial Displacement\tAxial Force", "Sec\tmm\tN"]
+    (tmp_path / "b.txt").write_text("\n".join(["Station Name:\tx", *again, *lines[:700], *again, *lines[700:]]))
+    assert [one.kind for one in check(tmp_path / "b.txt").findings] == ["rows_without_numbers"]
+
+
 def clock(start, seconds, date=""):
     at = start + seconds
     return f"{date}{int(at // 3600) % 24:02d}:{int(at // 60) % 60:02d}:{at % 60:06.3f}"
@@ -182,7 +200,7 @@ def clock(start, seconds, date=""):
 @pytest.mark.parametrize("date", ["", "2026-05-02 ", "2026-05-02T", "02.05.2026 "])
 @pytest.mark.parametrize("start", [45000.0, 86398.0])  # s; over midnight, too
 def test_a_time_of_day_is_a_time(tmp_path, date, start):
-    head = "Time,Depth (mm),Force (N)"
+    head = "Time (HH:mm:ss),Depth (mm),Force (N)"
     rows = [f"{clock(start, t, date)},{d * 1e3!r},{f!r}" for t, d, f in SAMPLES]
     (tmp_path / "a.csv").write_text("\n".join([head, *rows]))
     assert not check(tmp_path / "a.csv").findings
