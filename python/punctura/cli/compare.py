@@ -17,7 +17,7 @@ from punctura.progress import progress_bar
 
 def command(
     trace: Annotated[
-        Path, typer.Argument(exists=True, help="CSV, Parquet, MAT, XLSX, or a recording.", metavar="TRACE")
+        Path, typer.Argument(exists=True, help="A trace file (docs/identify.md), or a recording.", metavar="TRACE")
     ],
     models: Annotated[
         str | None, typer.Option("--models", help="Names, with commas between. Default: all.", metavar="NAMES")

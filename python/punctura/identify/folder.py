@@ -23,7 +23,7 @@ import pyarrow.parquet
 import punctura
 from punctura import Needle
 from punctura.defects import PATIENCE_S, explain
-from punctura.files.names import as_text
+from punctura.files.names import TRACE_ENDINGS, as_text
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
@@ -31,7 +31,6 @@ from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, Tr
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
-SUFFIXES = (".csv", ".txt", ".lvm", ".tra", ".json", ".jsonl", ".parquet", ".mat", ".xlsx", ".xlsm", ".tdms", ".bag")
 LONGEST = 200  # bytes of a name; a temporary file adds to it
 DIED = "its process ended early; is there enough memory?"  # tried again by the next run
 
@@ -53,7 +52,7 @@ class Task:
 
 def traces_in(folder: Path) -> list[Path]:
     """The trace files of a folder, by name."""
-    return sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES and path.is_file())
+    return sorted(path for path in folder.iterdir() if path.suffix.lower() in TRACE_ENDINGS and path.is_file())
 
 
 def identify_folder(
@@ -70,7 +69,7 @@ def identify_folder(
     """
     paths, out = traces_in(Path(folder)), Path(out)
     if not paths:
-        raise ValueError(f"{folder}: holds no trace ({', '.join(SUFFIXES)})")
+        raise ValueError(f"{folder}: holds no trace ({', '.join(TRACE_ENDINGS)})")
     if out.resolve() == Path(folder).resolve():
         raise ValueError(
             f"{out}: holds the traces; the results need another folder, because some are Parquet files, too"

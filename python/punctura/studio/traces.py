@@ -16,6 +16,7 @@ from starlette.datastructures import QueryParams
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
+from punctura.files.names import TRACE_ENDINGS
 from punctura.studio import limits
 from punctura.studio.computing import LabError, lines_of, take_place, worker
 from punctura.studio.download import Download
@@ -29,7 +30,6 @@ COMMAND = worker("punctura.studio.trace_worker")
 ADVICE = "try a number of membranes instead of auto, or a part of the trace"
 MOST_RECEIVED = 2  # files at a time, so that a slow page does not keep another one waiting
 LONGEST_WORD = 200  # characters of a value
-ENDINGS = {".csv", ".tsv", ".txt", ".parquet", ".mat", ".xlsx"}  # others could be code, such as .py
 
 
 class Late(Exception):
@@ -93,7 +93,7 @@ def _pairs(words: list[str]) -> dict[str, str]:
 def file_name(name: str) -> str:
     """The name as that of a file in one folder. An ending that tells a format stays; others become text."""
     kept = "".join("_" if c in '/\\:*?"<>|' or unicodedata.category(c)[0] == "C" else c for c in name)
-    if Path(kept).suffix.lower() not in ENDINGS:
+    if Path(kept).suffix.lower() not in TRACE_ENDINGS:  # others could be code, such as .py
         kept = f"{kept.strip(' .') or 'trace'}.txt"
     try:
         return safe_name(kept[-LONGEST:].strip(" ."))

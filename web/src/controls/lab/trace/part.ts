@@ -9,8 +9,8 @@ import { traceDialog } from "./result.ts";
 const TRACE: Kind = {
   label: "File of a trace",
   button: "Choose a file…",
-  accept: ".csv,.txt,.tsv,.parquet,.mat,.xlsx",
-  help: "Force against depth as CSV, Parquet, XLSX or MAT, or a recording of Punctura; at most 32 MB.",
+  accept: ".csv,.txt,.tsv,.tra,.lvm,.json,.jsonl,.parquet,.mat,.xlsx,.xlsm,.tdms,.bag",
+  help: "Force against depth as a machine writes it (CSV, XLSX, LVM, JSON, MAT), or a recording; at most 32 MB.",
   takes: (name) => !/\.toml$/i.test(name), // that is an exercise
   tab: "lab",
 };
