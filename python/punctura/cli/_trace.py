@@ -37,11 +37,15 @@ Speed = Annotated[
         metavar="SPEED",
     ),
 ]
+DepthFile = Annotated[
+    Path | None,
+    typer.Option("--depth-file", exists=True, help="Another file with depth and time, on the same clock."),
+]
 
 
 def reading_of(
     column: list[str] | None, unit: list[str] | None, order: str, decimal: str | None, encoding: str | None,
-    sheet: str | None, speed: str | None,
+    sheet: str | None, speed: str | None, depth_file: Path | None,
 ) -> Reading:  # fmt: skip
     """What the options say about a file. Raises typer.BadParameter."""
     from punctura.trace.reading import Reading
@@ -53,7 +57,7 @@ def reading_of(
     return Reading(
         pairs(column, "--column", empty=True), pairs(unit, "--unit"), "depth" if order == "depth" else "recorded",
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
-        _speeds(speed),
+        _speeds(speed), None if depth_file is None else str(depth_file),
     )  # fmt: skip
 
 

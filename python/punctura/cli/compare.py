@@ -10,7 +10,7 @@ import typer
 
 from punctura import save_scene
 from punctura.cli._out import check_apart, check_folder, check_place
-from punctura.cli._trace import Column, Encoding, Order, Point, Sheet, Speed, Unit, needle_of, reading_of
+from punctura.cli._trace import Column, DepthFile, Encoding, Order, Point, Sheet, Speed, Unit, needle_of, reading_of
 from punctura.extras import optional
 from punctura.progress import progress_bar
 
@@ -29,6 +29,7 @@ def command(
     encoding: Encoding = None,
     sheet: Sheet = None,
     speed: Speed = None,
+    depth_file: DepthFile = None,
     needle: Annotated[
         str | None,
         typer.Option(
@@ -63,7 +64,7 @@ def command(
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")
-    read = read_as(trace, reading_of(column, unit, order, decimal, encoding, sheet, speed))
+    read = read_as(trace, reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file))
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]

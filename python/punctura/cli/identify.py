@@ -13,6 +13,7 @@ from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
 from punctura.cli._trace import (
     Column,
+    DepthFile,
     Encoding,
     Order,
     Point,
@@ -58,6 +59,7 @@ def command(
     encoding: Encoding = None,
     sheet: Sheet = None,
     speed: Speed = None,
+    depth_file: DepthFile = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -85,7 +87,7 @@ def command(
     from punctura.scene.write import scene_text
     from punctura.trace.bags import is_bag
 
-    stated, count = reading_of(column, unit, order, decimal, encoding, sheet, speed), number_of(membranes)
+    stated, count = reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), number_of(membranes)
     folder = trace.is_dir() and not is_bag(trace)
     if folder or out is not None:
         if scene or report or plan:

@@ -26,13 +26,13 @@ def is_clock(cells: Sequence[Any]) -> bool:
 
 
 def clock_seconds(cells: Sequence[Any]) -> Array:
-    """Times of day in s from the first one, also past midnight; NaN for other cells."""
+    """Times of day in s since midnight, growing also past the next one; NaN for other cells."""
     read = [_seconds(cell) for cell in cells]
     time = np.array([np.nan if value is None else value for value in read], np.float64)
     known = np.flatnonzero(np.isfinite(time))
     if len(known):
         days = np.cumsum(np.diff(time[known], prepend=time[known[0]]) < -_DAY / 2)
-        time[known] += _DAY * days - time[known[0]]
+        time[known] += _DAY * days
     return time
 
 

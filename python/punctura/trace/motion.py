@@ -1,13 +1,18 @@
-"""The depth of a force sensor on a robot that moves at stated speeds."""
+"""The depth of a force sensor on a robot: from stated speeds, or from a file of its own."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.trace import Finding
+from punctura.trace.columns import choose_columns
+from punctura.trace.reading import Reading
+from punctura.trace.tables import read_table
+from punctura.trace.trace import Finding, TraceError
 
 Array = NDArray[np.float64]
 Speeds = Sequence[tuple[float, float]]  # from which time on (s since the first sample), how fast (m/s, inwards)
@@ -31,3 +36,24 @@ def about_speed(speeds: Speeds, force: Array) -> Finding:
         text += ". The force changes its sign, as if the needle turned: state when it stopped and turned "
         text += "(--speed-mm-per-s 4,0@4,-4@5: 4 mm/s, from 4 s on 0, from 5 s on -4 mm/s)"
     return Finding("depth_from_speed", text)
+
+
+def with_depth_of(
+    path: Path, held: Mapping[str, Array], reading: Reading, source: str
+) -> tuple[dict[str, Array], list[Finding]]:
+    """Force and time with the depth of another file, interpolated at the times that both have. Raises TraceError."""
+    other = replace(reading, depth_file=None, speeds=())
+    named = {role: name for role, name in reading.columns.items() if role != "force"}
+    motion, found = choose_columns(read_table(path, other), named, reading.units, str(path), ("depth", "time"))
+    good = np.isfinite(motion["depth"]) & np.isfinite(motion["time"])
+    order = np.argsort(motion["time"][good], kind="stable")
+    time, depth = motion["time"][good][order], motion["depth"][good][order]
+    both = (held["time"] >= time[0]) & (held["time"] <= time[-1]) if len(time) else np.zeros(len(held["time"]), bool)
+    if both.sum() < 5:
+        spans = [f"{each[0]:.6g} to {each[-1]:.6g} s" for each in (held["time"], time) if len(each)]
+        raise TraceError(f"{source}: has no time in common with {path}: {' and '.join(spans)}. Use one clock for both")
+    if not both.all():
+        text = f"{int((~both).sum())} of {len(both)} samples are outside the times of {path}; they are left out"
+        found.append(Finding("no_depth", text, True, 10 * int((~both).sum()) > len(both)))
+    return {"depth": np.interp(held["time"][both], time, depth), "force": held["force"][both],
+            "time": held["time"][both]}, found  # fmt: skip

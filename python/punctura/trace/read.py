@@ -16,7 +16,7 @@ from punctura.record.schema import ticks_of
 from punctura.trace.columns import choose_columns
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
-from punctura.trace.motion import Speeds, about_speed, depth_from
+from punctura.trace.motion import Speeds, about_speed, depth_from, with_depth_of
 from punctura.trace.reading import Order, Reading
 from punctura.trace.size import check_file, check_size
 from punctura.trace.table import Table
@@ -25,6 +25,8 @@ from punctura.trace.text import DecimalError
 from punctura.trace.trace import Finding, Trace, TraceError, Unstated
 
 Array = NDArray[np.float64]
+
+_LATE = 1e4  # s: a time of day or since 1970, which then begins at 0
 
 
 def read_trace(
@@ -37,6 +39,7 @@ def read_trace(
     encoding: str | None = None,
     sheet: str | None = None,
     speeds: Speeds = (),
+    depth_file: str | os.PathLike[str] | None = None,
 ) -> Trace:
     """Reads a trace file of a kind of docs/identify.md. The findings of the trace name what is unusual.
 
@@ -45,9 +48,11 @@ def read_trace(
     order: "depth" sorts a digitised curve of one insertion. decimal: the mark in front of decimals in a text file, and
     encoding: of its letters; None: as the file shows, and what can be read in two ways is an error. sheet: of a
     workbook, by name or number from 1. speeds: of the needle, for a file without depth: from which time on (s since the
-    first sample), how fast (m/s, inwards). Raises TraceError, OSError.
+    first sample), how fast (m/s, inwards). depth_file: another file with depth and time, on the same clock; columns and
+    units are of both files. Raises TraceError, OSError.
     """
-    return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet, tuple(speeds)))
+    other = None if depth_file is None else os.fspath(depth_file)
+    return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet, tuple(speeds), other))
 
 
 def read_as(path: str | os.PathLike[str], reading: Reading) -> Trace:
@@ -99,7 +104,8 @@ def _from_recording(recording: Recording) -> Trace:
 
 
 def _from_table(table: Table, source: str, reading: Reading) -> Trace:
-    held, found = choose_columns(table, reading.columns, reading.units, source, reading.needed)
+    named = {role: name for role, name in reading.columns.items() if role != "depth" or "depth" in reading.needed}
+    held, found = choose_columns(table, named, reading.units, source, reading.needed)
     found[:0] = table.findings
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
@@ -123,9 +129,14 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
                 f"{source}: {found[-1].text}. A trace needs at least 5 samples, and {left} would be left: check which "
                 "column is the time and in which order the rows are, or leave the time out"
             )
-    if reading.speeds:
+    if reading.depth_file is not None:
+        held, more = with_depth_of(Path(reading.depth_file), held, reading, source)
+        found += more
+    elif reading.speeds:
         held["depth"] = depth_from(reading.speeds, held["time"])
         found.append(about_speed(reading.speeds, held["force"]))
+    if "time" in held and abs(held["time"][0]) > _LATE:
+        held["time"] = held["time"] - held["time"][0]
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
 
 

@@ -23,8 +23,9 @@ class Reading:
     encoding: str | None = None
     sheet: str | None = None
     speeds: tuple[tuple[float, float], ...] = ()
+    depth_file: str | None = None
 
     @property
     def needed(self) -> tuple[str, ...]:
         """The columns that a table must have."""
-        return ("force", "time") if self.speeds else REQUIRED
+        return ("force", "time") if self.speeds or self.depth_file else REQUIRED

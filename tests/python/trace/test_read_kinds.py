@@ -123,3 +123,20 @@ def test_an_old_workbook_is_named(tmp_path):
     (tmp_path / "a.xls").write_bytes(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600))
     with pytest.raises(TraceError, match="Excel file of the kind before 2007; save it as XLSX"):
         read_trace(tmp_path / "a.xls")
+
+
+def test_depth_and_force_in_two_files_are_joined_on_their_clock(tmp_path):
+    clock = 1_700_000_000
+    (tmp_path / "f.csv").write_text("\n".join(["time_s,force_N", *(f"{clock + t:.3f},{f!r}" for t, _, f in ROWS)]))
+    slower = ROWS[100::2]
+    (tmp_path / "d.csv").write_text("\n".join(["t_ms,z_mm", *(f"{1e3 * (clock + t):.0f},{d!r}" for t, d, _ in slower)]))
+    read = read_trace(tmp_path / "f.csv", depth_file=tmp_path / "d.csv")
+    assert len(read) == len(ROWS) - 101 and read.depth == pytest.approx(MADE.depth[100:-1], abs=2e-5)
+    assert read.force == pytest.approx(MADE.force[100:-1]) and read.time[0] == 0
+    [finding] = read.findings
+    assert finding.kind == "no_depth" and "101 of 1400 samples" in finding.text and not finding.severe
+    (tmp_path / "d.csv").write_text("\n".join(["t_s,z_mm", *(f"{t},{d}" for t, d, _ in ROWS)]))
+    with pytest.raises(TraceError, match=r"has no time in common with .*Use one clock for both"):
+        read_trace(tmp_path / "f.csv", depth_file=tmp_path / "d.csv")
+    with pytest.raises(TraceError, match="no column is known to be the depth"):
+        read_trace(tmp_path / "f.csv", depth_file=tmp_path / "f.csv")
