@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Needle
+from punctura import Needle, Tissue
 from punctura._core import TraceModel
 
 Array = NDArray[np.float64]
@@ -73,9 +73,7 @@ class Parameters:
 
 def default_membrane() -> Array:
     """A membrane of K06 without values: every extension is off."""
-    row = np.zeros(len(MEMBRANE))
-    row[MEMBRANE.index("tail_floor")] = 1.0
-    return row
+    return np.array([getattr(Tissue(), name, 0.0) for name in MEMBRANE])
 
 
 def default_coupling(stiffness: float) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Literal
 
 import numpy as np
 
@@ -69,8 +70,6 @@ def _tissue(value: dict[str, float], diameter: float, as_table: bool) -> Tissue:
         opening = np.linspace(0, diameter, TABLE)
         grip = value["precompression"] + value["stiffness"] * np.expm1(growth * opening) / growth
         table = list(zip(opening.tolist(), grip.tolist(), strict=True))
-    return Tissue(
-        grip="table" if table else "linear" if growth == 0 else "exponential", growth=0.0 if table else growth,
-        grip_table=table, tip_length=value["tip_length"], tail_length=value["tail_length"],
-        tail_floor=value["tail_floor"], cutting=value["cutting"], set=value["set"],
-    )  # fmt: skip
+    numbers = {name: number for name, number in value.items() if hasattr(Tissue, name)}
+    shape: Literal["linear", "exponential", "table"] = "table" if table else "linear" if growth == 0 else "exponential"
+    return Tissue(shape, grip_table=table).replace(**numbers | ({"growth": 0.0} if table else {}))
