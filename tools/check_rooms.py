@@ -21,10 +21,10 @@ ROOMS = (
     "core/punctura/safety",
     "core/punctura/servo",
     "core/punctura/scene",
-    "core/punctura/events",
-    "core/punctura/trace",
     "core/punctura/rivals",
-    "core/punctura/plant",
+    "core/punctura/lab/events",  # no tick of a device needs the rooms of lab
+    "core/punctura/lab/trace",
+    "core/punctura/lab/plant",
     "core/punctura/punctura.hpp",  # includes all of core
     "runtime/punctura_runtime",
     "capi",

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/batch/scene_batch.hpp"
 #include "work.hpp"
 

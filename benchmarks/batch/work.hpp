@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "../timing.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura/model/thick_law.hpp"
-#include "punctura/plant/noise.hpp"
 #include "punctura_runtime/batch/line_batch.hpp"
 
 namespace punctura::bench_batch {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "rig.hpp"
 
 namespace bench {

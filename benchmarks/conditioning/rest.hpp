@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "rig.hpp"
 
 namespace bench {

@@ -1,9 +1,9 @@
 // Includes all headers of Punctura's core. A project that needs only one folder can include its headers instead.
 #pragma once
 
-#include "punctura/events/event_finder.hpp"
-#include "punctura/events/law_curve.hpp"
 #include "punctura/insertion/insertion.hpp"
+#include "punctura/lab/events/event_finder.hpp"
+#include "punctura/lab/events/law_curve.hpp"
 #include "punctura/model/law.hpp"
 #include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
@@ -21,7 +21,7 @@
 #include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
 #if defined(__cpp_exceptions)
-#include "punctura/plant/check.hpp"
-#include "punctura/plant/experiment.hpp"
-#include "punctura/plant/stroke_ends.hpp"
+#include "punctura/lab/plant/check.hpp"
+#include "punctura/lab/plant/experiment.hpp"
+#include "punctura/lab/plant/stroke_ends.hpp"
 #endif

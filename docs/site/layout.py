@@ -25,7 +25,7 @@ LINKED = (
 )
 PAGES = ("*.md", "docs/*.md", "docs/notebooks/*.md", "examples/*")
 HEADER = re.compile(r"\]\((?:\.\./)*((?:core|runtime)/[\w/]+\.hpp)\)")
-FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(\w+)/?\)")
+FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(?:lab/)?(\w+)/?\)")
 
 
 def page(text: str) -> str:

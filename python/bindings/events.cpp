@@ -1,5 +1,5 @@
-// core/punctura/events: events at the membranes, and the characteristic depths and curves of their laws.
-#include "punctura/events/event_finder.hpp"
+// core/punctura/lab/events: events at the membranes, and the characteristic depths and curves of their laws.
+#include "punctura/lab/events/event_finder.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "punctura/events/law_curve.hpp"
+#include "punctura/lab/events/law_curve.hpp"
 #include "state.hpp"
 #include "without_lock.hpp"
 

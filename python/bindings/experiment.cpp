@@ -1,5 +1,5 @@
-// core/punctura/plant/experiment.hpp: K06 section 4 without hardware.
-#include "punctura/plant/experiment.hpp"
+// core/punctura/lab/plant/experiment.hpp: K06 section 4 without hardware.
+#include "punctura/lab/plant/experiment.hpp"
 
 #include <nanobind/stl/variant.h>
 

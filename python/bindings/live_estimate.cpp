@@ -1,5 +1,5 @@
-// core/punctura/trace/live_estimate.hpp: slope, friction and punctures while a run goes on.
-#include "punctura/trace/live_estimate.hpp"
+// core/punctura/lab/trace/live_estimate.hpp: slope, friction and punctures while a run goes on.
+#include "punctura/lab/trace/live_estimate.hpp"
 
 #include "bindings.hpp"
 #include "state.hpp"

@@ -1,9 +1,9 @@
-// core/punctura/plant: a simulated device in a simulated hand, and the desired motion of the hand.
-#include "punctura/plant/plant.hpp"
+// core/punctura/lab/plant: a simulated device in a simulated hand, and the desired motion of the hand.
+#include "punctura/lab/plant/plant.hpp"
 
 #include "bindings.hpp"
-#include "punctura/plant/check.hpp"
-#include "punctura/plant/stroke_ends.hpp"
+#include "punctura/lab/plant/check.hpp"
+#include "punctura/lab/plant/stroke_ends.hpp"
 #include "punctura/scene/check.hpp"
 #include "state.hpp"
 #include "ticks.hpp"

@@ -2,7 +2,7 @@
 #include <nanobind/stl/variant.h>
 
 #include "bindings.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura/rivals/rival_insertion.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "bindings.hpp"
-#include "punctura/plant/experiment_table.hpp"
+#include "punctura/lab/plant/experiment_table.hpp"
 
 namespace punctura::bindings {
 

@@ -2,7 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings.hpp"
-#include "punctura/plant/experiment_table.hpp"
+#include "punctura/lab/plant/experiment_table.hpp"
 #include "tick_store.hpp"
 #include "value.hpp"
 

@@ -1,6 +1,6 @@
-// core/punctura/trace: the force along a measured motion, with exact derivatives.
+// core/punctura/lab/trace: the force along a measured motion, with exact derivatives.
 #include "bindings.hpp"
-#include "punctura/trace/trace_model.hpp"
+#include "punctura/lab/trace/trace_model.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {

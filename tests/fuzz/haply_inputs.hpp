@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura_runtime/backends/haply/axes.hpp"
 #include "punctura_runtime/backends/haply/frames.hpp"
 #include "punctura_runtime/backends/haply/handshake.hpp"

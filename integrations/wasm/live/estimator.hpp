@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "json.hpp"
+#include "punctura/lab/trace/live_estimate.hpp"
 #include "punctura/scene/scene.hpp"
 #include "punctura/servo/snapshot.hpp"
-#include "punctura/trace/live_estimate.hpp"
 
 namespace punctura::live {
 

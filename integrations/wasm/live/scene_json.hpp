@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "punctura/events/law_curve.hpp"
+#include "punctura/lab/events/law_curve.hpp"
 #include "punctura/scene/lumen.hpp"
 
 namespace punctura::live {

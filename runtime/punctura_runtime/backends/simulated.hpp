@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "punctura/device/device.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "punctura/model/omni.hpp"
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/triple_buffer.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 
 namespace punctura::batch {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "punctura/plant/unit_normal.hpp"
+#include "punctura/lab/plant/unit_normal.hpp"
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <immintrin.h>

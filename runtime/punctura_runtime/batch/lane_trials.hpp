@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura_runtime/batch/lane_wall.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"

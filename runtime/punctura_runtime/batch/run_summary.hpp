@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "punctura/events/contact.hpp"
+#include "punctura/lab/events/contact.hpp"
 
 namespace punctura::batch {
 

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "punctura/plant/check.hpp"
+#include "punctura/lab/plant/check.hpp"
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/record.hpp"
 #include "punctura_runtime/batch/blocks.hpp"

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/batch/run_options.hpp"
 #include "punctura_runtime/batch/run_summary.hpp"
 

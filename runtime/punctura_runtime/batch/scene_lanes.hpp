@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "punctura/plant/hand.hpp"
-#include "punctura/plant/tip_motion.hpp"
+#include "punctura/lab/plant/hand.hpp"
+#include "punctura/lab/plant/tip_motion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/signal/low_pass.hpp"

@@ -1,11 +1,11 @@
 // The characteristic depths of a crossing, compared with K06's formulas, and the curves for plots.
-#include "punctura/events/crossing.hpp"
+#include "punctura/lab/events/crossing.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/given_law.hpp"
 #include "../support/random_law.hpp"
-#include "punctura/events/law_curve.hpp"
+#include "punctura/lab/events/law_curve.hpp"
 #include "punctura/model/tissue_law.hpp"
 
 using namespace punctura;

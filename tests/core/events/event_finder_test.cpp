@@ -1,4 +1,4 @@
-#include "punctura/events/event_finder.hpp"
+#include "punctura/lab/events/event_finder.hpp"
 
 #include <doctest/doctest.h>
 

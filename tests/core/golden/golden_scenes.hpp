@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura/scene/scene.hpp"
 
 namespace punctura::test {

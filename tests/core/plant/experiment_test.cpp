@@ -1,4 +1,4 @@
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 
 #include <doctest/doctest.h>
 

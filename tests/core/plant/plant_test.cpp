@@ -1,9 +1,9 @@
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/plant.hpp"
 
 #include <doctest/doctest.h>
 
 #include "../support/tick.hpp"
-#include "punctura/plant/motion.hpp"
+#include "punctura/lab/plant/motion.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

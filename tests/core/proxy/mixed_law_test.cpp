@@ -9,7 +9,7 @@
 #include "../support/random_motion.hpp"
 #include "../support/random_tissue.hpp"
 #include "../support/tick.hpp"
-#include "punctura/events/crossing.hpp"
+#include "punctura/lab/events/crossing.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/state/archive.hpp"

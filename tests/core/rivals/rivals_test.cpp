@@ -7,7 +7,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura/rivals/rival_insertion.hpp"
 #include "punctura/state/archive.hpp"
 

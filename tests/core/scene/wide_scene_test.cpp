@@ -10,9 +10,9 @@
 #include "../support/allocations.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
-#include "punctura/events/event_finder.hpp"
-#include "punctura/events/law_curve.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/events/event_finder.hpp"
+#include "punctura/lab/events/law_curve.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura/scene/values.hpp"
 #include "punctura/state/archive.hpp"
 

@@ -4,7 +4,7 @@
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
 #include "../support/tick.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
 
 using namespace punctura;

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "punctura/plant/experiment_table.hpp"
+#include "punctura/lab/plant/experiment_table.hpp"
 
 using namespace punctura;
 

@@ -8,7 +8,7 @@
 #include "../support/encoder.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/tick.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 
 namespace punctura::test {
 

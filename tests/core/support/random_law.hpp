@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/plant/noise.hpp"
 
 namespace punctura::test {
 

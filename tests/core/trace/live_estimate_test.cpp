@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
+#include "punctura/lab/trace/live_estimate.hpp"
 #include "punctura/state/archive.hpp"
-#include "punctura/trace/live_estimate.hpp"
 
 using namespace punctura;
 

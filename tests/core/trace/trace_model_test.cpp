@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "punctura/trace/trace_model.hpp"
+#include "punctura/lab/trace/trace_model.hpp"
 
 namespace {
 

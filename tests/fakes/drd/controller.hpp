@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "fake_drd.hpp"
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 
 namespace punctura::fake_drd {
 

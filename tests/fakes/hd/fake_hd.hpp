@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "fake_hd.h"
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 
 #ifdef _WIN32
 #define EXPORT extern "C" __declspec(dllexport)

@@ -6,7 +6,7 @@
 
 #include "core/support/allocations.hpp"
 #include "fakes/drd/rig.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "runtime/support/patient.hpp"
 
 using namespace punctura;

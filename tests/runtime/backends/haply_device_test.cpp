@@ -4,7 +4,7 @@
 
 #include "core/support/paper_scene.hpp"
 #include "core/support/tick.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/haply_fake.hpp"
 #include "runtime/support/patient.hpp"

@@ -9,8 +9,8 @@
 #include "core/support/cases.hpp"
 #include "core/support/comma_locale.hpp"
 #include "fuzz/haply_inputs.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/plant/noise.hpp"
 #include "punctura_runtime/backends/haply/axes.hpp"
 #include "punctura_runtime/backends/haply/json.hpp"
 

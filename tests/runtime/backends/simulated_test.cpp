@@ -6,7 +6,7 @@
 
 #include "core/support/paper_scene.hpp"
 #include "core/support/tick.hpp"
-#include "punctura/plant/experiment.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 
 using namespace punctura;

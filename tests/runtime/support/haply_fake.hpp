@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "runtime/support/listener.hpp"
 
 namespace punctura::test {

@@ -5,8 +5,8 @@
 #include <random>
 #include <type_traits>
 
+#include "punctura/lab/plant/unit_normal.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/plant/unit_normal.hpp"
 
 namespace punctura {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "punctura/events/law_curve.hpp"
+#include "punctura/lab/events/law_curve.hpp"
+#include "punctura/lab/plant/hand.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/plant/hand.hpp"
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/scene/lumen.hpp"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "punctura/events/crossing.hpp"
+#include "punctura/lab/events/crossing.hpp"
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/scene/scene.hpp"
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "punctura/events/contact.hpp"
 #include "punctura/insertion/match_by_place.hpp"
+#include "punctura/lab/events/contact.hpp"
 #include "punctura/scene/build.hpp"
 
 namespace punctura {

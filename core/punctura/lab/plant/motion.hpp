@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "punctura/plant/hand.hpp"
+#include "punctura/lab/plant/hand.hpp"
 
 namespace punctura {
 

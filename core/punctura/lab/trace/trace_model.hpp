@@ -12,13 +12,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "punctura/lab/trace/dual.hpp"
+#include "punctura/lab/trace/jump.hpp"
 #include "punctura/model/needle.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/relaxing_coupling.hpp"
-#include "punctura/trace/dual.hpp"
-#include "punctura/trace/jump.hpp"
 
 namespace punctura {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "punctura/events/crossing.hpp"
+#include "punctura/lab/events/crossing.hpp"
 #include "punctura/servo/snapshot.hpp"
 
 namespace punctura {

@@ -1,8 +1,8 @@
 // The motion of the mass that device and hand form at the tip. Scalar: a number, or lanes (model/lane.hpp).
 #pragma once
 
-#include "punctura/plant/device_dynamics.hpp"
-#include "punctura/plant/hand_dynamics.hpp"
+#include "punctura/lab/plant/device_dynamics.hpp"
+#include "punctura/lab/plant/hand_dynamics.hpp"
 
 namespace punctura {
 

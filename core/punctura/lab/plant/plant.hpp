@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "punctura/plant/hand.hpp"
-#include "punctura/plant/tip_motion.hpp"
+#include "punctura/lab/plant/hand.hpp"
+#include "punctura/lab/plant/tip_motion.hpp"
 
 namespace punctura {
 

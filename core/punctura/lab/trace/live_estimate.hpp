@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "punctura/trace/live_line.hpp"
-#include "punctura/trace/live_puncture.hpp"
+#include "punctura/lab/trace/live_line.hpp"
+#include "punctura/lab/trace/live_puncture.hpp"
 
 namespace punctura {
 

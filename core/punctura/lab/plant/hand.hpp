@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "punctura/plant/hand_dynamics.hpp"
-#include "punctura/plant/noise.hpp"
+#include "punctura/lab/plant/hand_dynamics.hpp"
+#include "punctura/lab/plant/noise.hpp"
 
 namespace punctura {
 

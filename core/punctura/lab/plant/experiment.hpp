@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "punctura/plant/experiment_table.hpp"
-#include "punctura/plant/motion.hpp"
-#include "punctura/plant/plant.hpp"
+#include "punctura/lab/plant/experiment_table.hpp"
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "punctura/scene/build.hpp"
 
 namespace punctura {
