@@ -69,6 +69,14 @@ T sqrt(T x) noexcept {
   return std::sqrt(x);
 }
 template <std::floating_point T>
+T abs(T x) noexcept {
+  return std::abs(x);
+}
+template <Lanes V>
+V abs(const V& x) noexcept {
+  return max(x, -x);
+}
+template <std::floating_point T>
 T floor(T x) noexcept {
   return std::floor(x);
 }

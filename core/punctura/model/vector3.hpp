@@ -89,12 +89,14 @@ class Vector3 {
     return sqrt(squaredNorm());
   }
 
-  /// The length, also if squares overflow or underflow.
+  /// The length, also if squares overflow or underflow. In lanes it must be finite, and no denormal number.
   Scalar stableNorm() const noexcept {
-    if (!allFinite()) return std::abs(v_[0]) + std::abs(v_[1]) + std::abs(v_[2]);  // infinite, or NaN
     const Scalar largest = maxAbs();
-    if (largest < 1 / std::numeric_limits<Scalar>::max())
-      return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest would overflow
+    if constexpr (OneNumber<Scalar>) {
+      if (!allFinite()) return std::abs(v_[0]) + std::abs(v_[1]) + std::abs(v_[2]);  // infinite, or NaN
+      if (largest < 1 / std::numeric_limits<Scalar>::max())
+        return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest would overflow
+    }
     return largest * (*this * (1 / largest)).norm();
   }
 
@@ -109,7 +111,11 @@ class Vector3 {
     if (!(largest > 0)) return *this;
     return *this / (std::sqrt((*this / largest).squaredNorm()) * largest);
   }
-  Scalar maxAbs() const noexcept { return std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])}); }
+  Scalar maxAbs() const noexcept {
+    using namespace lane;
+    return max(max(abs(v_[0]), abs(v_[1])), abs(v_[2]));
+  }
+  Mask<Scalar> isZero() const noexcept { return v_[0] == 0 && v_[1] == 0 && v_[2] == 0; }
   bool allFinite() const noexcept { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
 
  private:
@@ -125,13 +131,14 @@ Vector3<V> select(const M& mask, const Vector3<V>& a, const Vector3<V>& b) noexc
 
 /// Whether p (m) is a valid coordinate: finite, and at most 1000 km from 0. Beyond that, filters and couplings could
 /// overflow.
-template <std::floating_point Scalar>
-bool is_place(Scalar p) noexcept {
-  return std::abs(p) <= Scalar(1e6);
+template <typename Scalar>
+Mask<Scalar> is_place(const Scalar& p) noexcept {
+  using namespace lane;
+  return abs(p) <= Lane<Scalar>(1e6);
 }
 /// Whether all coordinates of p (m) are valid.
 template <typename Scalar>
-bool is_place(const Vector3<Scalar>& p) noexcept {
+Mask<Scalar> is_place(const Vector3<Scalar>& p) noexcept {
   return is_place(p.x()) && is_place(p.y()) && is_place(p.z());
 }
 /// Whether v has the length 1, within 0.5 %.

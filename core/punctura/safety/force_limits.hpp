@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
@@ -54,93 +55,113 @@ struct LimitCounters {
 ///
 /// A device holds a force until the next tick, also if this tick is late. Therefore each tick counts the force of the
 /// previous tick, for the time that has passed.
+/// In lanes, each lane has a limiter. Lanes do not tell the limits apart, and count nothing.
 template <typename Scalar>
 class BasicForceLimiter {
  public:
   using Vector = Vector3<Scalar>;
+  using Truth = Mask<Scalar>;
+  using Acting = std::conditional_t<OneNumber<Scalar>, Limit, Truth>;  ///< in lanes: whether a limit acts
   /// The budget always has room for a device that holds a force for this time, s: the ordinary deadline of the gate.
   /// A longer deadline can exceed the continuous force (docs/safety.md).
-  static constexpr Scalar longest_hold = static_cast<Scalar>(GateLimits{}.deadline);
-  static constexpr Scalar unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
+  static constexpr auto longest_hold = static_cast<Lane<Scalar>>(GateLimits{}.deadline);
+  static constexpr Lane<Scalar> unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
-  BasicForceLimiter(const ForceLimits& limits, Scalar period) noexcept
+  /// What it remembers beside the budget: the ramp, the motors' temperature, the force that the device holds.
+  struct State {
+    Scalar gain{0};         ///< of the ramp
+    Scalar cool{1};         ///< the factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction
+    Scalar held_square{0};  ///< the square of the force that the device holds since the last tick, N^2
+    LimitCounters counters{};
+  };
+
+  BasicForceLimiter(const ForceLimits& limits, const Scalar& period) noexcept
       : max_force_(static_cast<Scalar>(limits.max_force)),
         warm_motor_(static_cast<Scalar>(limits.warm_motor)),
         budget_(static_cast<Scalar>(limits.continuous_time), static_cast<Scalar>(limits.continuous_force)),
         period_(period),
-        steady_(std::min(max_force_, std::sqrt(budget_.rate()))),
-        full_(steady_ + (max_force_ - steady_)),
-        hold_(std::max(period, longest_hold)),
         ramp_step_(period / static_cast<Scalar>(limits.ramp_time)),
         cooling_step_(period / static_cast<Scalar>(limits.continuous_time)) {
+    using namespace lane;
+    steady_ = min(max_force_, sqrt(budget_.rate()));
+    full_ = steady_ + (max_force_ - steady_);
+    hold_ = max(period, Scalar(longest_hold));
     // Up to half of the budget the share in permitted() is 1, and there is the least room for a hold at the half.
     const Scalar half = budget_.depth() / 2;
     const Scalar square = full_ * full_;
-    full_until_ = square > smallest_square && budget_.permitted_square(hold_, half) >= square ? half : -1;
+    full_until_ = select(square > smallest_square && budget_.permitted_square(hold_, half) >= square, half, Scalar(-1));
     ceiling_ = permitted();
   }
 
   /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
-  void reset() noexcept { gain_ = 0; }
-
-  /// Takes over the ramp, the budget and the counters of another limiter, but keeps its own limits.
-  void resume(const BasicForceLimiter& previous) noexcept {
-    gain_ = previous.gain_;
-    cool_ = previous.cool_;
-    held_square_ = previous.held_square_;
-    counters_ = previous.counters_;
-    budget_.set_spent(previous.budget_.spent());
+  void reset(const Truth& lanes = Truth(true)) noexcept {
+    using namespace lane;
+    state_.gain = select(lanes, Scalar(0), state_.gain);
   }
+  /// Forgets its state in these lanes.
+  void restart(const Truth& lanes) noexcept {
+    using namespace lane;
+    reset(lanes);
+    state_.cool = select(lanes, Scalar(1), state_.cool);
+    state_.held_square = select(lanes, Scalar(0), state_.held_square);
+  }
+
+  const State& state() const noexcept { return state_; }
+  /// Goes on after another limiter, with its own limits. The budget: set_spent().
+  void set_state(const State& state) noexcept { state_ = state; }
 
   /// One tick. wanted: the force of the model times the force scale, N, finite. Returns the force for the device, N.
   /// motor_temperature: 0 to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is
   /// left out.
-  Vector step(const Vector& wanted, Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
+  Vector step(const Vector& wanted, const Scalar& motor_temperature = Scalar(0),
+              const Scalar& elapsed = Scalar(unknown_time)) noexcept {
+    using namespace lane;
     count(elapsed);
-    gain_ = std::min(Scalar(1), gain_ + ramp_step_);
-    if (gain_ < 1 && wanted != Vector()) act(Limit::ramp, counters_.ramp);
-    Vector force = gain_ * wanted;
+    state_.gain = min(Scalar(1), Scalar(state_.gain + ramp_step_));
+    act(Limit::ramp, state_.gain < 1 && !wanted.isZero());
+    Vector force = state_.gain * wanted;
 
     feel(motor_temperature);
     ceiling_ = permitted();
-    held_square_ = force.squaredNorm();
+    state_.held_square = force.squaredNorm();
     // Most forces are far enough below the ceiling that rounding cannot matter. They need no root. Denormal squares are
     // too coarse for this comparison.
-    const Scalar below = Scalar(0.999) * ceiling_ * ceiling_;
-    if (!(held_square_ < below && below > smallest_square)) {
-      force = clamped(force);
-      held_square_ = force.squaredNorm();
+    const Scalar below = Lane<Scalar>(0.999) * ceiling_ * ceiling_;
+    const Truth close = !(state_.held_square < below && below > smallest_square);
+    if (any(close)) {
+      force = clamped(force, close);
+      state_.held_square = force.squaredNorm();
     }
     return force;
   }
 
   /// One tick without force. motor_temperature: 0 to 1. elapsed: s since the previous tick, as in step().
-  void rest(Scalar motor_temperature = 0, Scalar elapsed = unknown_time) noexcept {
+  void rest(const Scalar& motor_temperature = Scalar(0), const Scalar& elapsed = Scalar(unknown_time)) noexcept {
     count(elapsed);
     feel(motor_temperature);
     ceiling_ = permitted();
   }
 
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
-  void end(Scalar elapsed) noexcept { count(elapsed); }
+  void end(const Scalar& elapsed) noexcept { count(elapsed); }
 
   Scalar ceiling() const noexcept { return ceiling_; }  ///< the largest force that the last tick permitted, N
-  Limit limit() const noexcept { return limit_; }       ///< the limit that reduced the force of the last tick
-  Scalar gain() const noexcept { return gain_; }        ///< gain of the ramp, 0 to 1
-  const LimitCounters& counters() const noexcept { return counters_; }
+  Acting limit() const noexcept { return limit_; }      ///< the limit that reduced the force of the last tick
+  Scalar gain() const noexcept { return state_.gain; }  ///< gain of the ramp, 0 to 1
+  const LimitCounters& counters() const noexcept { return state_.counters; }
 
   const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
   /// Sets how much the motors of the device have given before, N^2 s. See ForceBudget::spent.
-  void set_spent(Scalar spent) noexcept { budget_.set_spent(spent); }
+  void set_spent(const Scalar& spent) noexcept { budget_.set_spent(spent); }
 
   static void archive(auto& self, auto& state) {
+    auto& own = self.state_;
     BasicForceBudget<Scalar>::archive(self.budget_, state);
-    state.numbers(self.gain_, self.cool_, self.ceiling_, self.held_square_);
-    state.require(self.gain_ >= 0 && self.gain_ <= 1 && self.cool_ >= 0 && self.cool_ <= 1 && self.held_square_ >= 0);
+    state.numbers(own.gain, own.cool, self.ceiling_, own.held_square);
+    state.require(own.gain >= 0 && own.gain <= 1 && own.cool >= 0 && own.cool <= 1 && own.held_square >= 0);
     state.choice(self.limit_, Limit::temperature);
     constexpr auto any = std::numeric_limits<std::uint64_t>::max();
-    for (auto* counter :
-         {&self.counters_.peak, &self.counters_.continuous, &self.counters_.temperature, &self.counters_.ramp})
+    for (auto* counter : {&own.counters.peak, &own.counters.continuous, &own.counters.temperature, &own.counters.ramp})
       state.index(*counter, any);
   }
   void describe(auto& parameters) const {
@@ -151,51 +172,59 @@ class BasicForceLimiter {
  private:
   /// Warm motors reduce the ceiling at once. It returns slowly, so that a sensor that fails now and then cannot switch
   /// the force on and off. NaN reduces it to 0.
-  void feel(Scalar temperature) noexcept {
-    const Scalar cooler = std::min(Scalar(1), cool_ + cooling_step_);
-    if (temperature <= warm_motor_)
-      cool_ = cooler;
-    else
-      cool_ = std::min(cooler, std::max(Scalar(0), (1 - temperature) / (1 - warm_motor_)));
+  void feel(const Scalar& temperature) noexcept {
+    using namespace lane;
+    const Scalar cooler = min(Scalar(1), Scalar(state_.cool + cooling_step_));
+    const Truth cold = temperature <= warm_motor_;
+    state_.cool = cooler;
+    if (!all(cold))
+      state_.cool = select(cold, cooler, min(cooler, max(Scalar(0), Scalar((1 - temperature) / (1 - warm_motor_)))));
   }
 
-  /// A force whose norm is at most the ceiling, with the direction of `force`.
-  Vector clamped(const Vector& force) noexcept {
+  /// A force whose norm is at most the ceiling, with the direction of `force`. close: where it may be larger.
+  Vector clamped(const Vector& force, const Truth& close) noexcept {
+    using namespace lane;
     const Scalar norm = force.stableNorm();
-    if (norm <= ceiling_) return force;
-    if (cool_ < 1)
-      act(Limit::temperature, counters_.temperature);
-    else if (ceiling_ < max_force_)
-      act(Limit::continuous, counters_.continuous);
-    else
-      act(Limit::peak, counters_.peak);
-    return force / norm * ceiling_;
+    const Truth over = close && !(norm <= ceiling_), warm = state_.cool < 1, spent = ceiling_ < max_force_;
+    act(Limit::temperature, over && warm);
+    act(Limit::continuous, over && !warm && spent);
+    act(Limit::peak, over && !warm && !spent);
+    return select(over, Vector(force / norm * ceiling_), force);
   }
 
   Scalar permitted() const noexcept {
-    if (budget_.spent() <= full_until_) return cool_ * full_;  // the same as below, to the bit
-    const Scalar share = std::min(Scalar(1), 2 * budget_.left());
+    using namespace lane;
+    if (all(budget_.spent() <= full_until_)) return state_.cool * full_;  // the same as below, to the bit
+    const Scalar share = min(Scalar(1), Scalar(2 * budget_.left()));
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
-    return cool_ * std::min(wanted, std::sqrt(budget_.permitted_square(hold_, budget_.spent())));
+    return state_.cool * min(wanted, sqrt(budget_.permitted_square(hold_, budget_.spent())));
   }
 
   /// Counts the force of the previous tick for the time that the device held it.
-  void count(Scalar elapsed) noexcept {
-    const bool known = elapsed >= 0 && std::isfinite(elapsed);
+  void count(const Scalar& elapsed) noexcept {
+    using namespace lane;
+    const Truth known = elapsed >= 0 && elapsed <= std::numeric_limits<Lane<Scalar>>::max();
     // Before the first tick of a run no time has passed. A period of rest for each run would add up over many runs,
     // and so would a period of rest for each wrong time stamp.
-    const bool no_time = !known && elapsed != unknown_time && held_square_ == 0;
-    budget_.spend(held_square_, known ? elapsed : no_time ? 0 : period_);
-    held_square_ = 0;
-    limit_ = Limit::none;
+    const Truth no_time = !known && !(elapsed == unknown_time) && state_.held_square == 0;
+    budget_.spend(state_.held_square, select(known, elapsed, select(no_time, Scalar(0), period_)));
+    state_.held_square = Scalar(0);
+    limit_ = {};
   }
 
-  void act(Limit limit, std::uint64_t& counter) noexcept {
-    limit_ = limit;
-    ++counter;
+  /// where: whether this limit acts.
+  void act(Limit limit, const Truth& where) noexcept {
+    if constexpr (Lanes<Scalar>) {
+      limit_ = limit_ || where;
+    } else if (where) {
+      using All = LimitCounters;
+      constexpr std::uint64_t All::* of[] = {nullptr, &All::ramp, &All::peak, &All::continuous, &All::temperature};
+      limit_ = limit;
+      ++(state_.counters.*of[static_cast<std::size_t>(limit)]);
+    }
   }
 
-  static constexpr Scalar smallest_square = std::numeric_limits<Scalar>::min() * 1000;  ///< N^2, far from denormal
+  static constexpr auto smallest_square = std::numeric_limits<Lane<Scalar>>::min() * 1000;  ///< N^2, far from denormal
 
   Scalar max_force_;   ///< N
   Scalar warm_motor_;  ///< 0 to 1
@@ -205,11 +234,9 @@ class BasicForceLimiter {
   Scalar full_;        ///< the ceiling of cool motors with a full budget, N: max_force, but for rounding
   Scalar full_until_;  ///< the ceiling of cool motors is full_ while no more than this is spent, N^2 s; -1: never sure
   Scalar hold_, ramp_step_, cooling_step_;
-  Scalar cool_ = 1;  ///< the factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction
-  Scalar gain_ = 0, ceiling_;
-  Scalar held_square_ = 0;  ///< the square of the force that the device holds since the last tick, N^2
-  Limit limit_ = Limit::none;
-  LimitCounters counters_{};
+  Scalar ceiling_;
+  Acting limit_{};
+  State state_{};
 };
 
 using ForceLimiter = BasicForceLimiter<double>;

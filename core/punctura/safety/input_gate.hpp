@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "punctura/device/sample.hpp"
 #include "punctura/model/vector3.hpp"
@@ -23,26 +24,29 @@ struct GateLimits {
 
 /// Checks each sample. Each comparison is written so that NaN fails the check.
 ///
-/// Times are double for every Scalar, because a float in seconds cannot resolve milliseconds after some hours.
+/// Times are double also for float, because a float in seconds cannot resolve milliseconds after some hours.
 template <typename Scalar>
 class BasicInputGate {
  public:
   using Vector = Vector3<Scalar>;
+  using Time = std::conditional_t<OneNumber<Scalar>, double, Scalar>;
+
+  /// What it remembers of the last sample.
+  struct State {
+    Mask<Scalar> started{};
+    Time time{}, fresh_time{};
+    std::uint64_t sequence = 0;
+    Vector position{};
+  };
 
   /// period: T, s.
-  BasicInputGate(const GateLimits& limits, double period, bool axis_is_used) noexcept
+  BasicInputGate(const GateLimits& limits, const Time& period, bool axis_is_used) noexcept
       : limits_(limits), period_(period), axis_is_used_(axis_is_used) {}
 
-  void reset() noexcept { started_ = false; }
-
-  /// Takes over the state of another gate, but keeps its own limits.
-  void resume(const BasicInputGate& previous) noexcept {
-    started_ = previous.started_;
-    time_ = previous.time_;
-    fresh_time_ = previous.fresh_time_;
-    sequence_ = previous.sequence_;
-    position_ = previous.position_;
-  }
+  void reset() noexcept { state_ = {}; }
+  const State& state() const noexcept { return state_; }
+  /// Goes on after the last sample of another gate, with its own limits.
+  void set_state(const State& state) noexcept { state_ = state; }
 
   /// Whether a dead-man button is held, or none is needed. If not, there is no force, but this is no fault.
   bool held(const DeviceSample& s) const noexcept {
@@ -61,28 +65,33 @@ class BasicInputGate {
       if (!axis.allFinite()) return Fault::non_finite_input;
       if (!(std::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;
     }
-    if (started_) {
-      if (!(s.time >= time_)) return Fault::clock;
-      if (!(s.time - time_ <= limits_.deadline)) return Fault::missed_deadline;
-      // Two readings that arrive close together can be a period apart. Therefore the time is at least T.
-      const double since_reading = std::max(period_, s.time - fresh_time_);
-      const auto farthest = static_cast<Scalar>(limits_.max_speed * since_reading);
-      if (!((position - position_).squaredNorm() <= farthest * farthest)) return Fault::position_jump;
+    if (state_.started) {
+      if (!(s.time >= state_.time)) return Fault::clock;
+      if (!in_time(s.time)) return Fault::missed_deadline;
+      if (!within_reach(position, s.time)) return Fault::position_jump;
     }
-    if (!started_ || s.sequence != sequence_) fresh_time_ = s.time;
-    if (!(s.time - fresh_time_ <= limits_.stale)) return Fault::stale_sample;
+    if (!state_.started || s.sequence != state_.sequence) state_.fresh_time = s.time;
+    if (!(s.time - state_.fresh_time <= limits_.stale)) return Fault::stale_sample;
 
-    started_ = true;
-    time_ = s.time;
-    position_ = position;
-    sequence_ = s.sequence;
+    state_ = {true, s.time, state_.fresh_time, s.sequence, position};
     return Fault::none;
   }
 
+  /// Checks a sample in each lane: a new reading, later than the last. Returns the lanes without a fault.
+  Mask<Scalar> step(const Vector& position, const Time& time) noexcept
+    requires Lanes<Scalar>
+  {
+    const auto good = is_place(position) && (!state_.started || (in_time(time) && within_reach(position, time)));
+    state_ = {Mask<Scalar>(true), time, time, 0, position};
+    return good;
+  }
+  /// The next sample of these lanes is their first.
+  void restart(const Mask<Scalar>& lanes) noexcept { state_.started = state_.started && !lanes; }
+
   static void archive(auto& self, auto& state) {
-    state.flag(self.started_);
-    state.numbers(self.time_, self.fresh_time_, self.position_);
-    state.index(self.sequence_, std::numeric_limits<std::uint64_t>::max());
+    state.flag(self.state_.started);
+    state.numbers(self.state_.time, self.state_.fresh_time, self.state_.position);
+    state.index(self.state_.sequence, std::numeric_limits<std::uint64_t>::max());
   }
   void describe(auto& parameters) const {
     parameters.numbers(limits_.max_speed, limits_.stale, limits_.deadline, limits_.axis_tolerance, period_);
@@ -91,13 +100,19 @@ class BasicInputGate {
   }
 
  private:
+  Mask<Scalar> in_time(const Time& time) const noexcept { return time - state_.time <= limits_.deadline; }
+  /// Whether a hand can have come here since the last reading. Two readings that arrive close together can be a period
+  /// apart. Therefore the time is at least T.
+  Mask<Scalar> within_reach(const Vector& position, const Time& time) const noexcept {
+    using namespace lane;
+    const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, Time(time - state_.fresh_time)));
+    return (position - state_.position).squaredNorm() <= farthest * farthest;
+  }
+
   GateLimits limits_;
-  double period_;
+  Time period_;
   bool axis_is_used_;
-  bool started_ = false;
-  double time_ = 0, fresh_time_ = 0;
-  std::uint64_t sequence_ = 0;
-  Vector position_{};
+  State state_{};
 };
 
 using InputGate = BasicInputGate<double>;

@@ -99,8 +99,9 @@ class ServoGuard {
   /// See ServoStepOf::resume().
   void resume(const ServoGuard& previous) noexcept {
     if (syringe_ && previous.syringe_) syringe_->resume(*previous.syringe_);
-    gate_.resume(previous.gate_);
-    limiter_.resume(previous.limiter_);
+    gate_.set_state(previous.gate_.state());
+    limiter_.set_state(previous.limiter_.state());
+    limiter_.set_spent(previous.spent());
     state_ = previous.state_;
     fault_ = previous.fault_;
     tick_ = previous.tick_;

@@ -67,8 +67,8 @@ class PositionConditioner {
   /// Takes over the samples of another conditioner of the same period. `previous` loses its history.
   void resume(PositionConditioner& previous) noexcept {
     for (std::size_t i = 0; i < 3; ++i) lines_[i].resume(previous.lines_[i]);
-    low_pass_.resume(previous.low_pass_);
-    played_ = previous.fits_ ? previous.played_ : previous.low_pass_.last();
+    low_pass_.set_state(previous.low_pass_.state());
+    played_ = previous.fits_ ? previous.played_ : previous.low_pass_.state().y;
   }
 
   static void archive(auto& self, auto& state) {

@@ -27,23 +27,21 @@ class LowPass {
     return filter;
   }
 
-  void reset() noexcept {
-    started_ = Mask<Scalar>(false);
-    y_ = {};
-  }
+  struct State {
+    Mask<Scalar> started{};
+    Value y{};  ///< the last result
+  };
 
+  void reset() noexcept { state_ = {}; }
   /// Forgets the samples of these lanes.
-  void restart(const Mask<Scalar>& lanes) noexcept { started_ = started_ && !lanes; }
-
-  /// Takes over the state of another filter, but keeps its own cutoff.
-  void resume(const LowPass& previous) noexcept {
-    y_ = previous.y_;
-    started_ = previous.started_;
-  }
+  void restart(const Mask<Scalar>& lanes) noexcept { state_.started = state_.started && !lanes; }
+  const State& state() const noexcept { return state_; }
+  /// Goes on from the samples of another filter, with its own cutoff.
+  void set_state(const State& state) noexcept { state_ = state; }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.started_);
-    state.numbers(self.y_);
+    state.flag(self.state_.started);
+    state.numbers(self.state_.y);
   }
   void describe(auto& parameters) const {
     parameters.flag(off_);
@@ -52,13 +50,13 @@ class LowPass {
 
   Value step(const Value& x) noexcept {
     using namespace lane;
-    y_ = select(off_ || !started_, x, Value(y_ + gain_ * (x - y_)));
-    started_ = Mask<Scalar>(true);
-    return y_;
+    Value& y = state_.y;
+    y = select(off_ || !state_.started, x, Value(y + gain_ * (x - y)));
+    state_.started = Mask<Scalar>(true);
+    return y;
   }
 
-  Mask<Scalar> started() const noexcept { return started_; }  ///< whether it has had a sample
-  const Value& last() const noexcept { return y_; }           ///< the last result
+  Mask<Scalar> started() const noexcept { return state_.started; }  ///< whether it has had a sample
   Scalar gain() const noexcept {
     using namespace lane;
     return select(off_, Scalar(1), gain_);
@@ -69,9 +67,9 @@ class LowPass {
  private:
   LowPass() noexcept = default;
 
-  Mask<Scalar> off_{}, started_{};
+  Mask<Scalar> off_{};
   Scalar gain_{};
-  Value y_{};
+  State state_{};
 };
 
 }  // namespace punctura

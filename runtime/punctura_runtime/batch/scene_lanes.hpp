@@ -30,14 +30,6 @@ template <typename V>
 Vector3<V> same(const Vector3d& v) noexcept {
   return {V(v.x()), V(v.y()), V(v.z())};
 }
-template <typename V>
-V size_of(const V& x) noexcept {
-  return max(x, -x);
-}
-template <typename V>
-V largest_of(const Vector3<V>& v) noexcept {
-  return max(max(size_of(v.x()), size_of(v.y())), size_of(v.z()));
-}
 
 /// The law of a membrane for the solvers of core.
 template <typename V>
@@ -86,7 +78,12 @@ class SceneLanes {
 
   /// start: the first lane in the block. All lanes are before their first tick.
   SceneLanes(SceneBlock& block, std::size_t start)
-      : block_(block), start_(start), states_(block.membranes.size()), ticks_(block.membranes.size()) {
+      : block_(block),
+        start_(start),
+        gate_({}, V(1), false),
+        limiter_({}, V(1)),
+        states_(block.membranes.size()),
+        ticks_(block.membranes.size()) {
     restart(Truth(true));
   }
 
@@ -97,15 +94,19 @@ class SceneLanes {
     tip_.x = select(lanes, at<V>(block_.place, start_), tip_.x);
     tip_.v = select(lanes, Vector(), tip_.v);
     tremor_.restart(lanes, {number(block_.tremor_a1), number(block_.tremor_a2), number(block_.tremor_b)});
-    const LowPass<V, Vector> previous = low_pass_;
-    low_pass_ = LowPass<V, Vector>::of_gain(!(number(block_.low_pass_is_off) == 0), number(block_.low_pass_gain));
-    low_pass_.resume(previous);
-    low_pass_.restart(lanes);
+    // The numbers of the block are new in these lanes; the other lanes go on.
+    const auto renew = [&](auto& old, auto made) {
+      made.set_state(old.state());
+      made.restart(lanes);
+      old = made;
+    };
+    const V spent = limiter_.budget().spent();
+    renew(low_pass_, LowPass<V, Vector>::of_gain(!(number(block_.low_pass_is_off) == 0), number(block_.low_pass_gain)));
+    renew(gate_, BasicInputGate<V>({}, number(block_.period), false));
+    renew(limiter_, Limiter({}, number(block_.period)));
+    limiter_.set_spent(select(lanes, V(0), spent));
     strange_ = strange_ && !lanes;
     active_ = active_ && !lanes;
-    gain_ = select(lanes, V(0), gain_);
-    held_square_ = select(lanes, V(0), held_square_);
-    budget_.set_spent(select(lanes, V(0), budget_.spent()));
     for (State& state : states_) restart(state, lanes);
   }
 
@@ -118,7 +119,7 @@ class SceneLanes {
     Vector measured = at<V>(inputs.position, start_);
     if (block_.has_hand) {
       measured = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
-      look(measured, first);
+      strange_ = strange_ || !gate_.step(measured, time);
     }
     measured_ = measured;
 
@@ -133,10 +134,13 @@ class SceneLanes {
       model_force_ += ticks_[i].force;
       outside = outside && ticks_[i].phase == Phase::outside;
     }
-    strange_ = strange_ || !(largest_of(model_force_) <= V(1e100));
+    strange_ = strange_ || !(model_force_.maxAbs() <= 1e100);
     if (block_.has_hand) {
+      limiter_.reset(outside && !active_);
       active_ = active_ || outside;
-      force_ = limit(number(block_.force_scale) * model_force_, select(first, V(0), time - time_), limited_);
+      // As the servo step fades: + 0 makes a zero of -0.
+      const Vector wanted = number(block_.force_scale) * model_force_ + Vector();
+      force_ = limiter_.step(select(active_, wanted, Vector()), V(0), select(first, V(0), time - time_));
       move(inputs, force_);
     }
     time_ = time;
@@ -149,7 +153,7 @@ class SceneLanes {
   const Vector& tip() const noexcept { return conditioned_; }          ///< the conditioned position, m
   const Vector& model_force() const noexcept { return model_force_; }  ///< N
   const Vector& force() const noexcept { return force_; }              ///< of the device, N; 0 without a hand
-  const Truth& limited() const noexcept { return limited_; }           ///< a limit made the device's force smaller
+  Truth limited() const noexcept { return limiter_.limit(); }          ///< a limit made the device's force smaller
   const SpaceTick<V>& tick(std::size_t i) const noexcept { return ticks_[i]; }  ///< at membrane i
   std::size_t size() const noexcept { return ticks_.size(); }                   ///< the number of membranes
   /// The lanes that have come near a fault since they started. Their results are void.
@@ -157,6 +161,7 @@ class SceneLanes {
 
  private:
   using Law = SpaceLaw<V>;
+  using Limiter = BasicForceLimiter<V>;
   using Coupling = RelaxingCoupling<V>;
   using Params = SpaceParams<Law, Coupling>;
   using State = SpaceState<Law, Coupling>;
@@ -233,41 +238,6 @@ class SceneLanes {
               tremor_.step(normal));
   }
 
-  /// Marks a lane of which the input gate could report a fault.
-  void look(const Vector& measured, const Truth& first) noexcept {
-    constexpr double margin = 0.99;  // of the gate's limit: rounding cannot make a lane pass that the gate would stop
-    Truth good = largest_of(measured) <= V(margin * 1e6);
-    good = good && (first ||
-                    (measured - measured_).norm() <= V(margin * GateLimits{}.max_speed) * at<V>(block_.period, start_));
-    strange_ = strange_ || !good;
-  }
-
-  /// What BasicForceLimiter does with the default limits, for a device without a temperature.
-  Vector limit(const Vector& wanted, const V& elapsed, Truth& limited) noexcept {
-    budget_.spend(held_square_, elapsed);
-    const V period = at<V>(block_.period, start_), ramp_step = period / V(limits.ramp_time);
-    gain_ = select(active_, min(V(1), gain_ + ramp_step), gain_);
-    const Vector faded = wanted + V(0) * Vector();
-    const V most(limits.max_force), steady = min(most, sqrt(budget_.rate()));
-    const V share = min(V(1), V(2) * budget_.left());
-    const V hold = max(period, V(BasicForceLimiter<double>::longest_hold));
-    const V ceiling = min(steady + share * (most - steady), sqrt(budget_.permitted_square(hold, budget_.spent())));
-
-    const V largest = largest_of(faded);
-    const Vector ramped = gain_ * faded;
-    const V largest_ramped = largest_of(ramped);
-    const Truth is_zero = largest_ramped == 0;
-    strange_ = strange_ || (active_ && !is_zero && !(largest_ramped >= V(1e-300)));
-    const V norm = select(is_zero, V(0), largest_ramped * (ramped * (V(1) / largest_ramped)).norm());
-    const Truth over = !(norm <= ceiling);
-    const Vector force = select(active_, select(over, Vector(ramped / norm * ceiling), ramped), Vector());
-    limited = active_ && (over || (gain_ < 1 && largest > 0));
-    held_square_ = force.squaredNorm();
-    return force;
-  }
-
-  static constexpr ForceLimits limits{};
-
   SceneBlock& block_;
   std::size_t start_;
   V number_{0};  // of the next tick
@@ -275,9 +245,10 @@ class SceneLanes {
   BasicTremor<V> tremor_{typename BasicTremor<V>::Filter{}};
   LowPass<V, Vector> low_pass_ = LowPass<V, Vector>::of_gain(Truth(true), V(0));
   Vector measured_{}, conditioned_{}, model_force_{}, force_{};
-  Truth strange_{false}, active_{false}, limited_{false};
-  V time_{0}, gain_{0}, held_square_{0};
-  BasicForceBudget<V> budget_{V(limits.continuous_time), V(limits.continuous_force)};
+  Truth strange_{false}, active_{false};
+  V time_{0};
+  BasicInputGate<V> gate_;
+  Limiter limiter_;
   std::vector<State> states_;
   std::vector<SpaceTick<V>> ticks_;
 };
