@@ -29,6 +29,42 @@ TrialRecord Fleet::record(std::size_t i, std::size_t ticks) const {
   return blocks_[i / width_]->record(i % width_, ticks);
 }
 
+const TrialHistory& Fleet::history(std::size_t i) const noexcept { return blocks_[i / width_]->history(i % width_); }
+
+void Fleet::restore(const std::vector<TrialHistory>& trials) {
+  blocks_.clear();
+  size_ = 0;
+  std::size_t last = 0, begin = 0;
+  for (const TrialHistory& trial : trials) last = std::max(last, trial.ticks);
+  // All trials end in the tick `last`. Before its start a trial makes ticks that nobody sees.
+  struct Place {
+    std::size_t start, move, until;  ///< ticks; the present move and its end
+  };
+  std::vector<Place> places;
+  for (const TrialHistory& trial : trials) {
+    places.push_back({last - trial.ticks, 0, last - trial.ticks});
+    if (trial.ticks > 0) begin = std::max(begin, last - trial.ticks + trial.begun);
+  }
+  std::vector<double> speed(trials.size());
+  for (std::size_t tick = 0; tick <= last;) {
+    std::size_t until = tick < begin ? begin : last;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const TrialHistory& trial = trials[i];
+      Place& at = places[i];
+      if (tick == at.start || tick == 0) place(i, trial.scene, trial.start, trial.seed);
+      if (tick == at.until && at.move < trial.moves.size()) {
+        speed[i] = trial.moves[at.move].speed;
+        at.until += trial.moves[at.move++].ticks;
+      }
+      if (at.until > tick) until = std::min(until, at.until);
+    }
+    if (tick == begin) this->begin();
+    if (tick == last) return;
+    step(speed.data(), until - tick);
+    tick = until;
+  }
+}
+
 bool Fleet::in_lanes(std::size_t i) const noexcept { return blocks_[i / width_]->in_lanes(i % width_); }
 
 }  // namespace punctura::batch

@@ -30,6 +30,11 @@ class Fleet {
   void step(const double* speed, std::size_t ticks);
   /// What happened to trial i since begin(). ticks: since then.
   TrialRecord record(std::size_t i, std::size_t ticks) const;
+  /// What a copy of trial i needs.
+  const TrialHistory& history(std::size_t i) const noexcept;
+  /// Replaces all trials by those with these histories: all make their ticks again, together, so that they come into
+  /// lanes. The scenes must have passed check().
+  void restore(const std::vector<TrialHistory>& trials);
   /// Whether lanes compute the trial; otherwise it is computed alone.
   bool in_lanes(std::size_t i) const noexcept;
 

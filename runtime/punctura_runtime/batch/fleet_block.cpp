@@ -27,7 +27,7 @@ void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start,
     state_.reset();
     for (Trial& trial : trials_) trial.lane = no_lane;
   }
-  Trial made{scene, start, seed};
+  Trial made{{scene, start, seed}};
   made.lane = i < trials_.size() ? trials_[i].lane : no_lane;
   if (lanes_.empty()) {
     solver_ = scene.servo.solver;
@@ -41,7 +41,7 @@ void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start,
     if (!state_) state_ = code_(*block_);
     state_->restart(lane, end_of(lane));
   } else {
-    made.alone = make(made);
+    made.alone = make(made.history);
   }
   if (i < trials_.size())
     trials_[i] = std::move(made);
@@ -50,9 +50,9 @@ void FleetBlock::place(std::size_t i, const Scene& scene, const Vector3d& start,
 }
 
 void FleetBlock::begin() {
-  begins_ = true;
   if (state_) state_->begin();
   for (Trial& trial : trials_) {
+    trial.history.begin();
     if (trial.alone)
       trial.alone->begin();
     else
@@ -64,43 +64,37 @@ void FleetBlock::step(const double* speed, std::size_t ticks) {
   bool some = false;
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     Trial& trial = trials_[i];
+    trial.history.step(speed[i], ticks);
     if (trial.alone) {
       trial.alone->step(speed[i], ticks);
       continue;
     }
-    trial.moves.push_back({speed[i], ticks, begins_});
     std::get<Steered>(lanes_[trial.lane].motion).steer(speed[i] * block_->inputs[0].told_axis);
     some = true;
   }
-  begins_ = false;
   if (!some) return;
   std::uint64_t strange = 0;
   for (std::size_t done = 0; done < ticks; done += scene_ticks) {
     const std::size_t now = std::min(scene_ticks, ticks - done);
-    for (Trial& trial : trials_) {
-      if (trial.alone) continue;
-      fill(trial.lane, trial.tick, now);
-      trial.tick += now;
-    }
+    for (const Trial& trial : trials_)
+      if (!trial.alone) fill(trial.lane, trial.history.ticks - ticks + done, now);
     state_->step(now);
     strange |= state_->record().strange;
   }
   for (Trial& trial : trials_)
-    if (!trial.alone && (strange >> trial.lane & 1u) != 0) leave_lanes(trial);
+    if (!trial.alone && (strange >> trial.lane & 1u) != 0) trial.alone = make(trial.history);
 }
 
-std::unique_ptr<FleetTrial> FleetBlock::make(const Trial& trial) const {
-  return std::make_unique<FleetTrial>(trial.scene, trial.start, setup_.axis, setup_.plant, setup_.hand, trial.seed);
-}
-
-void FleetBlock::leave_lanes(Trial& trial) {
-  auto alone = make(trial);
-  for (const Move& move : trial.moves) {
-    if (move.begins) alone->begin();
+std::unique_ptr<FleetTrial> FleetBlock::make(const TrialHistory& history) const {
+  auto alone =
+      std::make_unique<FleetTrial>(history.scene, history.start, setup_.axis, setup_.plant, setup_.hand, history.seed);
+  std::size_t tick = 0;
+  for (const TrialHistory::Move& move : history.moves) {
+    if (tick == history.begun) alone->begin();
     alone->step(move.speed, move.ticks);
+    tick += move.ticks;
   }
-  trial.alone = std::move(alone);
-  trial.moves = {};
+  return alone;
 }
 
 TrialRecord FleetBlock::record(std::size_t i, std::size_t ticks) const {

@@ -23,7 +23,7 @@ struct FleetSetup {
 ///
 /// A trial is computed alone if the instruction set has no code for lanes, if its scene does not fit beside the others,
 /// or from the step on in which it came near a fault. A lane keeps no states of the past. Therefore such a trial makes
-/// all its ticks again, alone: it keeps 24 bytes for each step since its start.
+/// all its ticks again, alone, from its history: 16 bytes for each step since its start.
 class FleetBlock final : public LaneTrials {
  public:
   /// The trials of a block: one vector, so that many threads find work; without lanes, enough for a thread.
@@ -41,35 +41,25 @@ class FleetBlock final : public LaneTrials {
   /// What happened since begin(). ticks: since then.
   TrialRecord record(std::size_t i, std::size_t ticks) const;
   bool in_lanes(std::size_t i) const noexcept { return !trials_[i].alone; }
+  const TrialHistory& history(std::size_t i) const noexcept { return trials_[i].history; }
 
  private:
-  struct Move {
-    double speed;  ///< m/s
-    std::size_t ticks;
-    bool begins;  ///< a record starts before it
-  };
   static constexpr std::size_t no_lane = ~std::size_t{0};
   struct Trial {
-    Scene scene;
-    Vector3d start;
-    std::uint64_t seed;
+    TrialHistory history;
     std::size_t lane = no_lane;
     std::unique_ptr<FleetTrial> alone{};  ///< null while lanes compute it
-    std::vector<Move> moves{};            ///< since its start, while lanes compute it
-    std::size_t tick = 0;                 ///< of the lanes
     double travel = 0;                    ///< at begin(), m
   };
 
-  std::unique_ptr<FleetTrial> make(const Trial& trial) const;
-  /// Makes the ticks of a trial again, alone.
-  void leave_lanes(Trial& trial);
+  /// A trial alone, after its history.
+  std::unique_ptr<FleetTrial> make(const TrialHistory& history) const;
 
   FleetSetup setup_;
   std::vector<Trial> trials_;
   MakeFleet code_ = nullptr;
   Solver solver_ = Solver::exact;      ///< of all lanes
   std::unique_ptr<FleetLanes> state_;  ///< null until a trial needs lanes
-  bool begins_ = false;
 };
 
 }  // namespace punctura::batch

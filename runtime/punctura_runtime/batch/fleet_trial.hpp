@@ -23,6 +23,31 @@ struct TrialRecord {
   std::vector<double> deepest;  ///< of each membrane, the largest depth in the step, m
 };
 
+/// What made a trial what it is. It says the trial to the bit, on every machine and instruction set.
+struct TrialHistory {
+  /// Ticks with one speed of the hand along the needle, m/s.
+  struct Move {
+    double speed;
+    std::size_t ticks;
+  };
+
+  Scene scene;
+  Vector3d start;  ///< place of the tip, m
+  std::uint64_t seed;
+  std::vector<Move> moves{};
+  std::size_t ticks = 0;  ///< of all moves
+  std::size_t begun = 0;  ///< of those before the last begin(), where a move ends
+
+  void begin() noexcept { begun = ticks; }
+  void step(double speed, std::size_t more) {
+    if (ticks != begun && moves.back().speed == speed)
+      moves.back().ticks += more;
+    else
+      moves.push_back({speed, more});
+    ticks += more;
+  }
+};
+
 /// An experiment whose hand moves along the needle with a speed that a program sets.
 class FleetTrial {
  public:

@@ -140,6 +140,30 @@ TEST_CASE("a trial that faults leaves the lanes with its whole record, and comes
   CHECK(all.step(slow, 35) == 0);
 }
 
+TEST_CASE("a fleet that makes the history of another one goes on with its bits, in lanes and alone") {
+  SetOfFleets all({}, [&](std::size_t i) { return fleet_scene(Solver::exact, i); });
+  const auto jump = [](std::size_t i) { return i == 5 ? 1e3 : fleet_speed(i, 0); };
+  CHECK(all.step(jump, 35) == 0);
+  for (std::size_t i : {1, 30, 36}) all.place_again(i, i + 2);
+  CHECK(all.step([](std::size_t i) { return fleet_speed(i, 0); }, 35) == 0);
+  all.place_again(7, 3);  // has made no tick
+  for (auto& fleet : all.fleets) {
+    std::vector<batch::TrialHistory> histories;
+    for (std::size_t i = 0; i < fleet_trials; ++i) histories.push_back(fleet->history(i));
+    auto copy = std::make_unique<batch::Fleet>(batch::FleetSetup{{}, {}, SetOfFleets::axis, &fleet->code()}, 2);
+    all.place(*copy, 0, 9);  // restore() forgets it
+    copy->restore(histories);
+    REQUIRE(copy->size() == fleet_trials);
+    for (std::size_t i = 0; i < fleet_trials; ++i) {
+      CHECK(copy->in_lanes(i) == fleet->in_lanes(i));
+      if (i != 7) CHECK(same_record(copy->record(i, 35), fleet->record(i, 35)));
+    }
+    fleet = std::move(copy);
+  }
+  for (std::size_t step = 0; step < 4; ++step)
+    CHECK(all.step([&](std::size_t i) { return fleet_speed(i, step); }, 35) == 0);
+}
+
 TEST_CASE("scenes of another kind than the others in their vector are computed alone, with the same bits") {
   const auto ticks = static_cast<std::size_t>(test::at_most(70));
   const double far = 70.0 / static_cast<double>(ticks);  // the same way in a shorter step
