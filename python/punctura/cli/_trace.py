@@ -125,24 +125,31 @@ def needle_of(text: str, trace: Path | None = None) -> Needle:
 
 def read_with_needle(path: Path, reading: Reading, needle: str, context: typer.Context) -> tuple[Trace, Needle]:
     """The trace of a file, and its needle. Raises TraceError that asks at once for all that is not stated."""
-    from punctura.trace.read import read_as
-    from punctura.trace.trace import TraceError, Unstated
-
-    known, trace = None, None
-    texts: list[str] = []
-    options: list[str] = []
     try:
         known = needle_of(needle, path)
     except MissingNeedle as error:
-        texts, options = [f"--needle {error.message}"], ["--needle diameter_mm=D,tip_angle_deg=A"]
+        read_or_ask(path, reading, context, f"--needle {error.message}", "--needle diameter_mm=D,tip_angle_deg=A")
+        raise
+    return read_or_ask(path, reading, context), known
+
+
+def read_or_ask(path: Path, reading: Reading, context: typer.Context, text: str = "", option: str = "") -> Trace:
+    """The trace of a file. Raises TraceError with the whole command, if something is not stated.
+
+    text, option: what else is not stated, and how to state it; then there is no trace.
+    """
+    from punctura.trace.read import read_as
+    from punctura.trace.trace import TraceError, Unstated
+
+    texts, options = [text] if text else [], [option] if option else []
     try:
         trace = read_as(path, reading)
     except Unstated as error:
         texts.append(str(error))
         options += error.options
-    if trace is None or known is None:
+    if texts:
         raise TraceError("\n".join([*texts, f"The whole command: {_command_with(context, options)}"]))
-    return trace, known
+    return trace
 
 
 def _command_with(context: typer.Context, options: Sequence[str]) -> str:

@@ -10,12 +10,25 @@ import typer
 
 from punctura import save_scene
 from punctura.cli._out import check_apart, check_folder, check_place
-from punctura.cli._trace import Column, DepthFile, Encoding, Order, Point, Sheet, Speed, Unit, needle_of, reading_of
+from punctura.cli._trace import (
+    Column,
+    DepthFile,
+    Encoding,
+    Order,
+    Point,
+    Sheet,
+    Speed,
+    Unit,
+    needle_of,
+    read_or_ask,
+    reading_of,
+)
 from punctura.extras import optional
 from punctura.progress import progress_bar
 
 
 def command(
+    context: typer.Context,
     trace: Annotated[
         Path, typer.Argument(exists=True, help="A trace file (docs/identify.md), or a recording.", metavar="TRACE")
     ],
@@ -53,7 +66,7 @@ def command(
     from punctura.rivals import compare_trace, save_layers
     from punctura.rivals.words import as_json as numbers
     from punctura.rivals.words import notes, table
-    from punctura.trace.read import read_as, recorded_needle
+    from punctura.trace.read import recorded_needle
 
     if plot is not None:
         optional("matplotlib", "plots", "--plot")
@@ -64,7 +77,7 @@ def command(
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")
-    read = read_as(trace, reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file))
+    read = read_or_ask(trace, reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), context)
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]

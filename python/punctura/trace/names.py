@@ -12,10 +12,10 @@ _NAMES = {
         distance dist deflection indentation elongation compression pd x z
         weg hub tiefe verschiebung eindringung
         deplacement profondeur course allongement enfoncement
-        desplazamiento profundidad posicion alargamiento carrera distancia penetracion deslocamento profundidade
+        recorrido desplazamiento profundidad posicion alargamiento carrera distancia penetracion deslocamento profundidade
         spostamento profondita posizione corsa allungamento distanza penetrazione estensione
         変位 深さ 位置 伸び 距離 ストローク 変位量 押込み量 押し込み量
-        位移 深度 行程 变形 變形 伸长 距离 변위 перемещение деформация глубина""",
+        位移 深度 行程 伸长 距离 변위 перемещение глубина""",
     "force": """force load f fz fn
         kraft last
         charge effort
@@ -35,13 +35,12 @@ _PARTS = """standard estandar axial axiale axialer assiale assial normal normale
     actual current absolute relative corrected filtered probe sensor cell gauge channel contact stamp applied grip
     nadel traversen traverse kolben pruf pruef mess eindring einstich einstech druck maschinen versuchs verstrichene
     essai aiguille ecoule ecoulee appliquee
-    aguja ensayo prueba transcurrido cabezal
-    prova traversa trascorso applicata
+    aguja ensayo prueba transcurrido cabezal cruceta celda
+    prova traversa trascorso applicata cella
     試験 経過 クロスヘッド 圧縮 押込み 押し込み 挿入 穿刺
     值 値 试验 试驗 試驗 测试 測試 实验 经过 经历 运行 轴向 针 插入 压缩 横梁 采样 标准 標準"""
-_SHORT = (
-    """c tip raw run ch of the in wrench pose header value field de d du des la le del da di dell della do et 針 の"""
-)
+_SHORT = """c tip tcp ee ft fts robot raw run ch of the in wrench pose header value field
+    de d du des la le del da di dell della do et 針 の"""
 _WORDS = set(_SHORT.split())
 _PART = re.compile("|".join(sorted(map(re.escape, _PARTS.split()), key=len, reverse=True)))
 _ROLES = {word: role for role, words in _NAMES.items() for word in words.split()}

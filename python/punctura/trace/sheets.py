@@ -36,7 +36,7 @@ def only_trace(path: Path, tables: Mapping[str, Table], reading: Reading) -> Tab
     if not traces:
         raise TraceError(f"{path}: holds no rows of numbers")
     text = f"{path}: {len(traces)} tables can be the trace: {_listed(traces)}; choose one (--sheet NAME)"
-    raise SheetError(f"{text}, or take all of them as a folder (--out FOLDER)", traces)
+    raise SheetError(f"{text}, or identify all of them (punctura identify FILE --out FOLDER)", traces)
 
 
 def _is_trace(table: Table, reading: Reading) -> bool:

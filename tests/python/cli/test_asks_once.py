@@ -1,7 +1,10 @@
 """All that a trace file does not state is asked in one message, with the whole command."""
 
 import numpy as np
+import pytest
+import typer
 from punctura.cli._app import build_app
+from punctura.cli._trace import reading_of
 from traces import trace
 from typer.testing import CliRunner
 
@@ -21,3 +24,24 @@ def test_needle_columns_and_units_are_asked_at_once_with_the_whole_command(tmp_p
         f"punctura identify '{file}' --membranes 2 --json --needle diameter_mm=D,tip_angle_deg=A "
         "--column depth=NAME --unit depth=UNIT --unit force=UNIT"
     )
+
+
+def test_a_needle_alone_is_asked_for_with_the_whole_command_too(tmp_path):
+    made, file = trace(), tmp_path / "a.csv"
+    np.savetxt(file, np.column_stack((made.depth, made.force)), delimiter=",", header="depth_m,force_N", comments="")
+    told, text = asked(file, "--scene", tmp_path / "b.toml")
+    assert told.exit_code and text.startswith("--needle is missing")
+    assert text.endswith(f"{file} --scene {tmp_path / 'b.toml'} --needle diameter_mm=D,tip_angle_deg=A")
+    told = CliRunner().invoke(build_app("compare"), ["compare", str(file), "--unit", "force=stone"])
+    assert "punctura compare" in f"{told.exception}" and f"{told.exception}".endswith("--unit force=UNIT")
+
+
+def test_speeds_are_stated_as_a_list_with_times():
+    def speeds(text):
+        return reading_of(None, None, "recorded", None, None, None, text, None).speeds
+
+    assert speeds("4") == ((0.0, 0.004),) and speeds(None) == ()
+    assert speeds("4,0@4,-4@5.5") == ((0.0, 0.004), (4.0, 0.0), (5.5, -0.004))
+    for wrong in ("fast", "4@1", "4,0@5,1@5", "nan", "4,,1@2"):
+        with pytest.raises(typer.BadParameter, match="mm/s, with growing times"):
+            speeds(wrong)

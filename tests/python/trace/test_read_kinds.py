@@ -43,7 +43,9 @@ def test_the_sheet_of_the_only_specimen_is_the_trace(tmp_path):
 def test_one_of_several_specimens_is_chosen_or_all_are_a_folder(tmp_path):
     book = tmp_path / "a.xlsx"
     workbook(book, ["A/B".replace("/", " "), "C"])
-    with pytest.raises(TraceError, match=r"2 tables can be the trace: 'A B', 'C'; .*--sheet NAME.*--out FOLDER"):
+    with pytest.raises(
+        TraceError, match=r"2 tables can be the trace: 'A B', 'C'; .*--sheet NAME.*identify all of them"
+    ):
         read_trace(book)
     check(read_trace(book, sheet="C"))
     check(read_trace(book, sheet="4"))
