@@ -4,8 +4,7 @@ from punctura.exercise.attempt import Attempt
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.expected import cannot_show, expected_losses, thumb_cannot_show
 from punctura.exercise.load import exercise_names, exercise_of, exercise_of_bytes, exercises, load_exercise
-from punctura.exercise.remark import Coaching, Remark
-from punctura.exercise.result import GoalState, Loss, Metrics, Overshoot, Result, Status
+from punctura.exercise.result import Coaching, GoalState, Loss, Metrics, Overshoot, Remark, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
 from punctura.exercise.schema import exercise_json_schema
 from punctura.exercise.score import score

@@ -20,9 +20,8 @@ from punctura.exercise.goals import GOALS
 from punctura.exercise.judge import Achievement, Limit
 from punctura.exercise.measures import Measures
 from punctura.exercise.moment import Moment, first_of, moment
-from punctura.exercise.remark import Coaching
-from punctura.exercise.result import GoalState, Result, Status
-from punctura.exercise.stays import Stays
+from punctura.exercise.motion import Stays
+from punctura.exercise.result import Coaching, GoalState, Result, Status
 from punctura.exercise.ticks import Flags, Geometry, JudgedTicks
 from punctura.exercise.yields import Yields
 

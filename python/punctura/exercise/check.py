@@ -15,10 +15,9 @@ from pydantic import BaseModel, ValidationError
 
 from punctura import Scene
 from punctura.errors import MISSING, Problem
-from punctura.exercise.bounds import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING
 from punctura.exercise.depths import unreachable
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.fields import Space, Start
+from punctura.exercise.fields import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING, Space, Start
 from punctura.exercise.goals import GOALS, Given
 from punctura.exercise.problems import located, problem
 from punctura.exercise.schema import ExerciseFile

@@ -8,10 +8,10 @@ import numpy as np
 
 from punctura import Scene, Syringe
 from punctura._core import ForceLimits, crossing, force_scale, grazing_cosine, law_curve
-from punctura.exercise.bounds import MOST_PUSH_N
 from punctura.exercise.course import asked_push, felt_membranes, judges_plunger
 from punctura.exercise.exercise import Exercise, start_axis
-from punctura.exercise.loss import LEAST_NEEDED_N, NEEDED_SHARE, needed_drop, remedy
+from punctura.exercise.fields import MOST_PUSH_N
+from punctura.exercise.losses import LEAST_NEEDED_N, NEEDED_SHARE, needed_drop, remedy
 from punctura.exercise.result import Loss, unfelt
 from punctura.exercise.space import place_of
 

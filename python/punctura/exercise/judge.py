@@ -10,10 +10,10 @@ import numpy as np
 from punctura.events import Event
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.motion import MOST_GAP_S
 from punctura.exercise.quantities import tenths
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.stays import MOST_GAP_S
 from punctura.exercise.ticks import Flags, JudgedTicks
 
 

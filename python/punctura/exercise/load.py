@@ -9,8 +9,8 @@ from pathlib import Path
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise.check import check_tables
+from punctura.exercise.depths import tip_warnings
 from punctura.exercise.exercise import Exercise
-from punctura.exercise.tip import tip_warnings
 from punctura.files.toml import Tables, decoded, parse_toml, read_tables
 from punctura.scene import load_scene, scene_names
 

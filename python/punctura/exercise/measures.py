@@ -12,11 +12,11 @@ from punctura import Scene
 from punctura._core import Limit as ForceLimit
 from punctura.events import Event
 from punctura.exercise.losses import Losses
-from punctura.exercise.path import Path, PathSoFar
+from punctura.exercise.motion import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks
-from punctura.exercise.yield_measures import YieldMeasures
+from punctura.exercise.yields import YieldMeasures
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # window after a pop, unless a goal sets it: a hand reacts later than this

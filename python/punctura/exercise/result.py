@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
 from punctura.events import Event
-from punctura.exercise.remark import Coaching
 
 FORMAT = 1
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -16,6 +15,19 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 class _Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Remark(_Part):
+    about: str  # what it is about, such as "stop"; a fixed word, for programs
+    text: str  # the sentence
+    numbers: dict[str, Finite] = {}  # SI, with the unit in the name
+
+
+class Coaching(_Part):
+    """The coach's words about one attempt, the most important first. Empty if there is nothing to say."""
+
+    good: list[Remark] = []  # what went well
+    change: list[Remark] = []  # what to change next time
 
 
 class GoalState(_Part):

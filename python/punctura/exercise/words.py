@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from punctura._core import Fault, describe
 from punctura.exercise.fields import Space
 from punctura.exercise.judge import Achievement
-from punctura.exercise.loss import remedy
+from punctura.exercise.losses import remedy
 from punctura.exercise.measures import Measures
 from punctura.exercise.quantities import tenths
 from punctura.exercise.result import GoalState, Loss, PlungerLoss

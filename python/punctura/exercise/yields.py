@@ -1,14 +1,54 @@
-"""Finds when the plunger of a syringe gives way under the thumb: the loss of resistance that the second hand feels."""
+"""When a syringe's plunger gives way under the thumb, and what follows: the loss of resistance of the second hand."""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 
+from punctura.exercise.losses import needed_drop
+from punctura.exercise.result import PlungerLoss, Yield
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.thumb_so_far import ThumbSoFar
-from punctura.exercise.ticks import JudgedTicks
+from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
+
+ROUNDING_N = 0.01  # a device gives a force with an error of about this
+DELAY_S = 5e-3  # a second device gives the force of an earlier tick; illustrative, for 400 Hz and more
+
+
+class ThumbSoFar:
+    """Takes all ticks of an attempt with a second device, in batches of any size."""
+
+    def __init__(self, rate: float) -> None:
+        """rate: of the ticks, Hz."""
+        self._wanted = np.full(max(1, round(DELAY_S * rate)), np.inf)  # N, of the last ticks
+        self._farthest, self._cut_to = np.nan, np.inf
+
+    def mark(self, ticks: JudgedTicks, entering: Flags) -> JudgedTicks:
+        """Returns the ticks with `farthest` and `cut_to` filled in. entering: the point comes out behind."""
+        starts = np.flatnonzero(entering).tolist()
+        farthest = _since(starts, ticks.thumb, self._farthest, np.fmax)
+        cut_to = _since(starts, np.where(self._cut(ticks), ticks.push_felt, np.inf), self._cut_to, np.fmin)
+        self._farthest, self._cut_to = float(farthest[-1]), float(cut_to[-1])
+        return replace(ticks, farthest=farthest, cut_to=cut_to)
+
+    def _cut(self, ticks: JudgedTicks) -> Flags:
+        """Whether the device gives less than it was asked for in any of the last ticks: a limit cuts the force."""
+        wanted = np.concatenate([self._wanted, ticks.force_scale * ticks.push])
+        self._wanted = wanted[len(wanted) - len(self._wanted) :]
+        least = np.lib.stride_tricks.sliding_window_view(wanted, len(self._wanted) + 1).min(axis=1)
+        with np.errstate(invalid="ignore"):
+            cut: Flags = ticks.push_felt < least - np.maximum(0.01 * np.abs(least), ROUNDING_N)
+        return cut
+
+
+def _since(starts: list[int], values: Numbers, before: float, best: np.ufunc) -> Numbers:
+    """The best value since the last start, in each tick. before: of the ticks before these."""
+    edges = [0, *starts, len(values)]
+    parts = [best.accumulate(values[a:b]) for a, b in itertools.pairwise(edges)]
+    parts[0] = best(parts[0], before)
+    return np.concatenate(parts)
+
 
 # Illustrative. 10 kPa press 0.005 mL/s into a ligament of the ready epidural, and some mL/s into its space.
 FLOW = 0.1e-6  # m^3/s, from which the plunger gives way
@@ -56,3 +96,91 @@ class Yields:
         self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
         marked = replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)
         return self._thumb.mark(marked, entering) if self._thumb else marked
+
+
+REACTION_S = 0.3  # a thumb reacts within it; illustrative
+
+
+class YieldMeasures:
+    """Takes all ticks of an attempt, with `gave_way` filled in."""
+
+    def __init__(self, seconds: float, must: bool, stiffness: float = 0.0) -> None:
+        """seconds: in which the injected volume is measured. must: whether the thumb must feel the loss of resistance.
+        stiffness: of the coupling between thumb and plunger, N/m."""
+        self._seconds, self._must, self._stiffness = seconds, must, stiffness
+        self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
+        self._farthest: list[float] = []  # m, how far in the thumb has been since the point came out
+        self._least: list[float] = []  # N, of the felt force since it gave way, whatever the thumb did
+        self._seen_to = -np.inf
+        self.found: list[Yield] = []
+
+    def begin(self, ticks: JudgedTicks) -> None:
+        for row in np.flatnonzero(ticks.gave_way).tolist():
+            self._volumes.append(float(ticks.injected[row]))
+            self._farthest.append(float(ticks.farthest[row]))
+            self._least.append(np.inf)
+            time, push = float(ticks.time[row]), float(ticks.load[row])
+            loss = self._loss(ticks, row)
+            self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
+
+    def _loss(self, ticks: JudgedTicks, row: int) -> PlungerLoss | None:
+        before, model = float(ticks.load_felt[row]), float(ticks.load[row])
+        if not np.isfinite(before):
+            return None
+        scale, needed = float(ticks.force_scale[row]), self._needed(before)
+        return PlungerLoss(
+            before=before, after=before, model_before=model, model_after=model, force_scale=scale, needed=needed
+        )
+
+    def _needed(self, before: float) -> float | None:
+        return needed_drop(before) if self._must else None
+
+    def settle(self, ticks: JudgedTicks) -> None:
+        for k, one in enumerate(self.found):
+            rows = (ticks.time >= one.time) & np.isfinite(ticks.injected)
+            soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
+            self.found[k] = one = self._injected(k, one, ticks, rows & (ticks.time <= one.time + one.seconds))
+            if one.loss is not None and soon.any():
+                self.found[k] = one.model_copy(update={"loss": self._followed(k, one.loss, ticks, soon)})
+        if len(ticks):
+            self._seen_to = float(ticks.time[-1])
+
+    def _injected(self, k: int, one: Yield, ticks: JudgedTicks, rows: Flags) -> Yield:
+        if not rows.any():
+            return one
+        injected = float(ticks.injected[rows].max()) - self._volumes[k]
+        late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
+        pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
+        update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
+        return one.model_copy(update=update)
+
+    def _followed(self, k: int, loss: PlungerLoss, ticks: JudgedTicks, soon: Flags) -> PlungerLoss:
+        """The loss with the least forces so far, for a thumb that had not been drawn back.
+
+        A thumb that is drawn back feels less force, whether or not the plunger gives way: so each force counts as at
+        least that of the coupling to a thumb at its farthest place so far. A limit that has cut the force is no loss of
+        resistance: then the force before counts only as far.
+        """
+        push, felt = ticks.push[soon], ticks.push_felt[soon]
+        farthest = np.fmax.accumulate(np.fmax(ticks.farthest[soon], self._farthest[k]))
+        held = np.fmax(push, self._stiffness * (farthest - ticks.plunger[soon]))
+        self._farthest[k], self._least[k] = float(farthest[-1]), min(self._least[k], float(felt.min()))
+        kept = felt + loss.force_scale * (held - push)
+        row = int(kept.argmin())
+        before, after = loss.before, loss.after
+        if kept[row] < after:
+            before, after = max(0.0, min(before, float(ticks.cut_to[soon][row]))), float(kept[row])
+        needed = self._needed(before)
+        drawn_back = before - after < needed_drop(before) <= before - self._least[k]
+        update = {"model_after": min(loss.model_after, float(held.min())), "drawn_back": drawn_back}
+        return loss.model_copy(update={"before": before, "after": after, "needed": needed, **update})
+
+    @property
+    def ends(self) -> list[float]:
+        """The time at which each measurement ends, s."""
+        return [one.time + max(one.seconds, REACTION_S if one.loss else 0.0) for one in self.found]
+
+    @property
+    def complete(self) -> list[Yield]:
+        """Those after which a thumb could have reacted."""
+        return [one for one in self.found if self._seen_to >= one.time + REACTION_S]

@@ -6,7 +6,7 @@ import pytest
 from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, of_positions
 from punctura._core import ForceLimits, ServoState
 from punctura.exercise import Result, cannot_show, expected_losses, load_exercise
-from punctura.exercise.loss import needed_drop
+from punctura.exercise.losses import needed_drop
 
 SCENE = pn.load_scene("venipuncture")
 PRESS = HEAD.replace("[space]", "[space]\npress_mm = 9\nsign_is_felt = true")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.quantities import degrees, mm, tenths, times
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 
 
 def wrong_angle(seen: Seen) -> Iterator[Remark]:

@@ -15,7 +15,7 @@ from punctura.exercise.course import asked_angle
 from punctura.exercise.judge import Achievement, Limit
 from punctura.exercise.measures import Measures
 from punctura.exercise.moment import Moment
-from punctura.exercise.remark import Coaching, Remark
+from punctura.exercise.result import Coaching, Remark
 from punctura.exercise.schema import ExerciseFile
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import JudgedTicks

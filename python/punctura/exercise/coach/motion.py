@@ -8,7 +8,7 @@ import numpy as np
 
 from punctura.exercise.coach.thresholds import HOLD_S, HOLD_SETTLE_S, PAUSE_S, SMOOTH_S
 from punctura.exercise.coach.trace import Samples
-from punctura.exercise.speed import PAUSE_SPEED
+from punctura.exercise.motion import PAUSE_SPEED
 from punctura.exercise.ticks import Flags, Numbers
 
 

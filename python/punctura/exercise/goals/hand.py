@@ -14,10 +14,10 @@ from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance
 from punctura.exercise.goals.goal import Course, Goal
 from punctura.exercise.judge import Limit, SoFar
 from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.quantities import speed
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 from punctura.exercise.space import TargetSpace
-from punctura.exercise.speed import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks
 
 ROUNDING_RAD = 1e-9

@@ -13,14 +13,13 @@ from punctura import Scene
 from punctura._core import grazing_cosine
 from punctura.errors import Problem
 from punctura.events import Event
-from punctura.exercise.bounds import LEAST_HEADING, MOST_HEADING
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import Distance, Vector
+from punctura.exercise.fields import LEAST_HEADING, MOST_HEADING, Distance, Vector
 from punctura.exercise.goals.goal import Course, Given, Goal
 from punctura.exercise.judge import Limit, SoFar
 from punctura.exercise.moment import Moment, by, first_of
 from punctura.exercise.quantities import mm, tenths
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import JudgedTicks
 

@@ -17,10 +17,10 @@ from punctura.exercise.goals.goal import Course, Goal
 from punctura.exercise.judge import Achievement, SoFar, WindowLimit
 from punctura.exercise.moment import Moment, first_of
 from punctura.exercise.quantities import millilitres, tenths
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 from punctura.exercise.space import TargetSpace
 from punctura.exercise.ticks import Flags, JudgedTicks
-from punctura.exercise.yield_measures import REACTION_S
+from punctura.exercise.yields import REACTION_S
 
 EMPTY = 0.99  # share of a syringe's contents; if more has left it, its plunger does not give way any more
 

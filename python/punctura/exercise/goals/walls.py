@@ -12,15 +12,14 @@ from pydantic import Field
 from punctura import Scene
 from punctura.errors import MISSING, Problem
 from punctura.events import Event
-from punctura.exercise.bounds import MOST_ENTRIES
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import Distance, Seconds, Word
+from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word
 from punctura.exercise.goals.goal import Course, Given, Goal
 from punctura.exercise.judge import Limit, SoFar, WindowLimit
 from punctura.exercise.moment import Moment, first_of
 from punctura.exercise.quantities import mm, speed, tenths, times
-from punctura.exercise.remark import Remark
+from punctura.exercise.result import Remark
 from punctura.exercise.space import TargetSpace, place_of
 from punctura.exercise.ticks import GONE_S, ROUNDING, Flags, JudgedTicks
 
