@@ -30,8 +30,8 @@ inline void write_scene(Json& json, const Scene& scene, int number, double rate,
                         const std::vector<double>& angles) {
   json.open('{').field("number", number).field("name", scene.name).field("diameter", scene.needle.diameter);
   json.field("tip_length", tip_length(scene.needle));
-  json.field("direction", scene.direction == Direction::stylus ? "stylus" : "motion");
-  json.field("solver", scene.servo.solver == Solver::exact ? "exact" : "paper");
+  json.field("direction", word_of(scene.direction));
+  json.field("solver", word_of(scene.servo.solver));
   json.field("rate", rate).field("force_scale", force_scale).key("membranes").open('[');
   for (const PlacedMembrane& placed : scene.membranes) {
     const Vector3d normal = to_vector(placed.inward_normal);
