@@ -9,20 +9,8 @@ from typing import Annotated
 import typer
 
 from punctura import save_scene
+from punctura.cli import _trace
 from punctura.cli._out import check_apart, check_folder, check_place
-from punctura.cli._trace import (
-    Column,
-    DepthFile,
-    Encoding,
-    Order,
-    Point,
-    Sheet,
-    Speed,
-    Unit,
-    needle_of,
-    read_or_ask,
-    reading_of,
-)
 from punctura.extras import optional
 from punctura.progress import progress_bar
 
@@ -35,14 +23,14 @@ def command(
     models: Annotated[
         str | None, typer.Option("--models", help="Names, with commas between. Default: all.", metavar="NAMES")
     ] = None,
-    column: Column = None,
-    unit: Unit = None,
-    order: Order = "recorded",
-    decimal: Point = None,
-    encoding: Encoding = None,
-    sheet: Sheet = None,
-    speed: Speed = None,
-    depth_file: DepthFile = None,
+    column: _trace.Column = None,
+    unit: _trace.Unit = None,
+    order: _trace.Order = "recorded",
+    decimal: _trace.Point = None,
+    encoding: _trace.Encoding = None,
+    sheet: _trace.Sheet = None,
+    speed: _trace.Speed = None,
+    depth_file: _trace.DepthFile = None,
     needle: Annotated[
         str | None,
         typer.Option(
@@ -77,13 +65,15 @@ def command(
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")
-    read = read_or_ask(trace, reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), context)
+    read = _trace.read_or_ask(
+        trace, _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), context
+    )
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]
     with progress_bar("compare") as tell:
         found = compare_trace(
-            read, names, needle=needle_of(needle) if needle else recorded_needle(trace), with_chatter=chatter,
+            read, names, needle=_trace.needle_of(needle) if needle else recorded_needle(trace), with_chatter=chatter,
             progress=tell,
         )  # fmt: skip
     if plot is not None:

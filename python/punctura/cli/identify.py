@@ -9,21 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from punctura.cli import _trace
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
-from punctura.cli._trace import (
-    Column,
-    DepthFile,
-    Encoding,
-    Order,
-    Point,
-    Sheet,
-    Speed,
-    Unit,
-    needle_of,
-    read_with_needle,
-    reading_of,
-)
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar
 
@@ -52,14 +40,14 @@ def command(
         ),
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
-    column: Column = None,
-    unit: Unit = None,
-    order: Order = "recorded",
-    decimal: Point = None,
-    encoding: Encoding = None,
-    sheet: Sheet = None,
-    speed: Speed = None,
-    depth_file: DepthFile = None,
+    column: _trace.Column = None,
+    unit: _trace.Unit = None,
+    order: _trace.Order = "recorded",
+    decimal: _trace.Point = None,
+    encoding: _trace.Encoding = None,
+    sheet: _trace.Sheet = None,
+    speed: _trace.Speed = None,
+    depth_file: _trace.DepthFile = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -87,7 +75,10 @@ def command(
     from punctura.scene.write import scene_text
     from punctura.trace.bags import is_bag
 
-    stated, count = reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), number_of(membranes)
+    stated, count = (
+        _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file),
+        number_of(membranes),
+    )
     folder = trace.is_dir() and not is_bag(trace)
     if folder or out is not None:
         if scene or report or plan:
@@ -95,7 +86,7 @@ def command(
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        task = Task(needle_of(needle, trace), count, stated)
+        task = Task(_trace.needle_of(needle, trace), count, stated)
         if not folder:
             write_specimens(trace, stated, out / "specimens")
             trace, task = out / "specimens", replace(task, reading=replace(stated, sheet=None))
@@ -105,7 +96,7 @@ def command(
     for option, path in written.items():
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
-    read, known = read_with_needle(trace, stated, needle, context)
+    read, known = _trace.read_with_needle(trace, stated, needle, context)
     found = identify(read, known, count, lambda word: typer.echo(f"punctura: {word}", err=True))
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if scene is not None:

@@ -12,7 +12,8 @@ _NAMES = {
         distance dist deflection indentation elongation compression pd x z
         weg hub tiefe verschiebung eindringung
         deplacement profondeur course allongement enfoncement
-        recorrido desplazamiento profundidad posicion alargamiento carrera distancia penetracion deslocamento profundidade
+        recorrido desplazamiento profundidad posicion alargamiento carrera distancia
+        penetracion deslocamento profundidade
         spostamento profondita posizione corsa allungamento distanza penetrazione estensione
         変位 深さ 位置 伸び 距離 ストローク 変位量 押込み量 押し込み量
         位移 深度 行程 伸长 距离 변위 перемещение глубина""",

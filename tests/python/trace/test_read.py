@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 import scipy.io
 from openpyxl import Workbook
-from punctura.cli.identify import needle_of
+from punctura.cli._trace import needle_of
 from punctura.live import SimulatedDevice
 from punctura.trace import TraceError, read_trace
 from recorded import recorded
