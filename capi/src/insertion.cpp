@@ -8,6 +8,8 @@ using namespace punctura::c;
 struct punctura_insertion : Stepper<SceneInsertion> {
   using Stepper::Stepper;
 };
+PUNCTURA_STEPPER(insertion)
+PUNCTURA_STEPS_IN_SPACE(insertion)
 
 punctura_status punctura_insertion_new(const punctura_scene* scene, punctura_insertion** insertion) {
   return make_handle(scene, insertion, [&](auto& made) {
@@ -17,30 +19,6 @@ punctura_status punctura_insertion_new(const punctura_scene* scene, punctura_ins
     made = std::make_unique<punctura_insertion>(std::move(*built));
     return ok;
   });
-}
-
-void punctura_insertion_free(punctura_insertion* insertion) { delete insertion; }
-
-punctura_status punctura_insertion_reset(punctura_insertion* insertion) {
-  if (!insertion) return PUNCTURA_BAD_ARGUMENT;
-  insertion->stepping().reset();
-  return ok;
-}
-
-punctura_status punctura_insertion_step(punctura_insertion* insertion, const double position[3], const double axis[3],
-                                        double force[3]) {
-  if (!insertion || !position || !axis || !force) return no_force(force);
-  return step_in_space(insertion->stepping(), position, axis, force);
-}
-
-punctura_status punctura_insertion_peek(punctura_insertion* insertion, const double position[3], const double axis[3],
-                                        double force[3]) {
-  if (!insertion || !position || !axis || !force) return no_force(force);
-  return step_in_space(insertion->peeking(), position, axis, force);
-}
-
-punctura_status punctura_insertion_commit(punctura_insertion* insertion) {
-  return insertion ? insertion->commit() : PUNCTURA_BAD_ARGUMENT;
 }
 
 punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t count, const double* positions,
@@ -68,14 +46,4 @@ punctura_status punctura_insertion_membrane(const punctura_insertion* insertion,
                                             punctura_membrane_tick* tick) {
   if (membrane < 0 || membrane >= punctura_insertion_membrane_count(insertion)) return PUNCTURA_BAD_ARGUMENT;
   return give_membrane(tick, punctura::record_of(insertion->now.tick(static_cast<size_t>(membrane))));
-}
-
-size_t punctura_insertion_state_size(const punctura_insertion* insertion) { return state_size(insertion); }
-
-punctura_status punctura_insertion_save(const punctura_insertion* insertion, void* state, size_t size) {
-  return save(insertion, state, size);
-}
-
-punctura_status punctura_insertion_restore(punctura_insertion* insertion, const void* state, size_t size) {
-  return restore(insertion, state, size);
 }

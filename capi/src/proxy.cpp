@@ -43,6 +43,9 @@ struct punctura_proxy1d : Stepper<OnALine> {
 struct punctura_proxy3d : Stepper<InSpace> {
   using Stepper::Stepper;
 };
+PUNCTURA_STEPPER(proxy1d)
+PUNCTURA_STEPPER(proxy3d)
+PUNCTURA_STEPS_IN_SPACE(proxy3d)
 
 punctura_status punctura_proxy1d_new(const punctura_scene* scene, int32_t membrane, punctura_proxy1d** proxy) {
   return make_handle(scene, proxy, [&](auto& made) {
@@ -53,14 +56,6 @@ punctura_status punctura_proxy1d_new(const punctura_scene* scene, int32_t membra
   });
 }
 
-void punctura_proxy1d_free(punctura_proxy1d* proxy) { delete proxy; }
-
-punctura_status punctura_proxy1d_reset(punctura_proxy1d* proxy) {
-  if (!proxy) return PUNCTURA_BAD_ARGUMENT;
-  proxy->stepping().reset();
-  return ok;
-}
-
 double punctura_proxy1d_step(punctura_proxy1d* proxy, double depth) {
   return proxy ? proxy->stepping().step(depth) : punctura::nothing;
 }
@@ -69,22 +64,8 @@ double punctura_proxy1d_peek(punctura_proxy1d* proxy, double depth) {
   return proxy ? proxy->peeking().step(depth) : punctura::nothing;
 }
 
-punctura_status punctura_proxy1d_commit(punctura_proxy1d* proxy) {
-  return proxy ? proxy->commit() : PUNCTURA_BAD_ARGUMENT;
-}
-
 punctura_status punctura_proxy1d_membrane(const punctura_proxy1d* proxy, punctura_membrane_tick* tick) {
   return proxy ? give_membrane(tick, punctura::record_of(proxy->now.tick())) : PUNCTURA_BAD_ARGUMENT;
-}
-
-size_t punctura_proxy1d_state_size(const punctura_proxy1d* proxy) { return state_size(proxy); }
-
-punctura_status punctura_proxy1d_save(const punctura_proxy1d* proxy, void* state, size_t size) {
-  return save(proxy, state, size);
-}
-
-punctura_status punctura_proxy1d_restore(punctura_proxy1d* proxy, const void* state, size_t size) {
-  return restore(proxy, state, size);
 }
 
 punctura_status punctura_proxy3d_new(const punctura_scene* scene, int32_t membrane, punctura_proxy3d** proxy) {
@@ -96,40 +77,6 @@ punctura_status punctura_proxy3d_new(const punctura_scene* scene, int32_t membra
   });
 }
 
-void punctura_proxy3d_free(punctura_proxy3d* proxy) { delete proxy; }
-
-punctura_status punctura_proxy3d_reset(punctura_proxy3d* proxy) {
-  if (!proxy) return PUNCTURA_BAD_ARGUMENT;
-  proxy->stepping().reset();
-  return ok;
-}
-
-punctura_status punctura_proxy3d_step(punctura_proxy3d* proxy, const double position[3], const double axis[3],
-                                      double force[3]) {
-  if (!proxy || !position || !axis || !force) return no_force(force);
-  return step_in_space(proxy->stepping(), position, axis, force);
-}
-
-punctura_status punctura_proxy3d_peek(punctura_proxy3d* proxy, const double position[3], const double axis[3],
-                                      double force[3]) {
-  if (!proxy || !position || !axis || !force) return no_force(force);
-  return step_in_space(proxy->peeking(), position, axis, force);
-}
-
-punctura_status punctura_proxy3d_commit(punctura_proxy3d* proxy) {
-  return proxy ? proxy->commit() : PUNCTURA_BAD_ARGUMENT;
-}
-
 punctura_status punctura_proxy3d_membrane(const punctura_proxy3d* proxy, punctura_membrane_tick* tick) {
   return proxy ? give_membrane(tick, punctura::record_of(proxy->now.tick())) : PUNCTURA_BAD_ARGUMENT;
-}
-
-size_t punctura_proxy3d_state_size(const punctura_proxy3d* proxy) { return state_size(proxy); }
-
-punctura_status punctura_proxy3d_save(const punctura_proxy3d* proxy, void* state, size_t size) {
-  return save(proxy, state, size);
-}
-
-punctura_status punctura_proxy3d_restore(punctura_proxy3d* proxy, const void* state, size_t size) {
-  return restore(proxy, state, size);
 }

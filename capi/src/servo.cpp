@@ -11,6 +11,7 @@ using punctura::Snapshot;
 struct punctura_servo : Stepper<SceneServo> {
   using Stepper::Stepper;
 };
+PUNCTURA_STEPPER(servo)
 
 namespace {
 
@@ -93,8 +94,6 @@ punctura_status punctura_servo_new(const punctura_scene* scene, const punctura_l
   });
 }
 
-void punctura_servo_free(punctura_servo* servo) { delete servo; }
-
 punctura_status punctura_servo_arm(punctura_servo* servo) {
   if (!servo) return PUNCTURA_BAD_ARGUMENT;
   servo->stepping().arm();
@@ -104,12 +103,6 @@ punctura_status punctura_servo_arm(punctura_servo* servo) {
 punctura_status punctura_servo_disarm(punctura_servo* servo) {
   if (!servo) return PUNCTURA_BAD_ARGUMENT;
   servo->stepping().disarm();
-  return ok;
-}
-
-punctura_status punctura_servo_reset(punctura_servo* servo) {
-  if (!servo) return PUNCTURA_BAD_ARGUMENT;
-  servo->stepping().reset();
   return ok;
 }
 
@@ -123,21 +116,9 @@ punctura_status punctura_servo_peek(punctura_servo* servo, const punctura_sample
   return tick(servo->peeking(), *sample, record);
 }
 
-punctura_status punctura_servo_commit(punctura_servo* servo) { return servo ? servo->commit() : PUNCTURA_BAD_ARGUMENT; }
-
 punctura_status punctura_servo_membrane(const punctura_servo* servo, int32_t membrane, punctura_membrane_tick* tick) {
   if (!servo || membrane < 0) return PUNCTURA_BAD_ARGUMENT;
   const Snapshot& snapshot = servo->now.snapshot();
   if (static_cast<uint32_t>(membrane) >= snapshot.membrane_count) return PUNCTURA_BAD_ARGUMENT;
   return give_membrane(tick, snapshot.membranes[static_cast<size_t>(membrane)]);
-}
-
-size_t punctura_servo_state_size(const punctura_servo* servo) { return state_size(servo); }
-
-punctura_status punctura_servo_save(const punctura_servo* servo, void* state, size_t size) {
-  return save(servo, state, size);
-}
-
-punctura_status punctura_servo_restore(punctura_servo* servo, const void* state, size_t size) {
-  return restore(servo, state, size);
 }

@@ -130,3 +130,32 @@ punctura_status step_in_space(Object& object, const double position[3], const do
 }
 
 }  // namespace punctura::c
+
+// The functions of punctura.h that all steppers have. A name of C needs a macro.
+#define PUNCTURA_STEPPER(name)                                                                        \
+  void punctura_##name##_free(punctura_##name* given) { delete given; }                               \
+  punctura_status punctura_##name##_reset(punctura_##name* given) {                                   \
+    if (!given) return PUNCTURA_BAD_ARGUMENT;                                                         \
+    given->stepping().reset();                                                                        \
+    return ok;                                                                                        \
+  }                                                                                                   \
+  punctura_status punctura_##name##_commit(punctura_##name* given) {                                  \
+    return given ? given->commit() : PUNCTURA_BAD_ARGUMENT;                                           \
+  }                                                                                                   \
+  size_t punctura_##name##_state_size(const punctura_##name* given) { return state_size(given); }     \
+  punctura_status punctura_##name##_save(const punctura_##name* given, void* state, size_t size) {    \
+    return save(given, state, size);                                                                  \
+  }                                                                                                   \
+  punctura_status punctura_##name##_restore(punctura_##name* given, const void* state, size_t size) { \
+    return restore(given, state, size);                                                               \
+  }
+
+#define PUNCTURA_STEP_IN_SPACE(name, call, object)                                                                 \
+  punctura_status punctura_##name##_##call(punctura_##name* given, const double position[3], const double axis[3], \
+                                           double force[3]) {                                                      \
+    if (!given || !position || !axis || !force) return no_force(force);                                            \
+    return step_in_space(given->object(), position, axis, force);                                                  \
+  }
+#define PUNCTURA_STEPS_IN_SPACE(name)          \
+  PUNCTURA_STEP_IN_SPACE(name, step, stepping) \
+  PUNCTURA_STEP_IN_SPACE(name, peek, peeking)

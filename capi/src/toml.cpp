@@ -173,6 +173,7 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
 }  // namespace punctura::c
 
 using namespace punctura::c;
+using punctura::not_given;
 
 punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene) {
   return guarded([&] {
