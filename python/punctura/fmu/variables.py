@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from punctura._core import Scene
+from punctura._core import Scene, scene_values
 
 # The value references of integrations/fmi/instance.hpp
 _TIME, _INPUTS, _OUTPUTS, _RAMP, _MEMBRANES, _PARAMETERS = 0, 1, 7, 10, 100, 1000
 _NO_EFFECT = ("syringe.", "display.")  # on the force on the needle
-_NO_EFFECT_OF_A_MEMBRANE = (".outflow_", ".behind_")
+_NO_EFFECT_OF_A_MEMBRANE = (".outflow_", ".behind", ".look")
 
 
 @dataclass(frozen=True)
@@ -31,16 +31,16 @@ class Variable:
 
 def scene_lines(scene: Scene) -> Iterator[tuple[str, float | str]]:
     """The paths and values of a scene, SI, as punctura_scene_from_values() of the C library reads them."""
-    yield "name", _one_line(scene.name)
-    yield "needle.direction", scene.direction
-    yield "servo.solver", scene.servo.solver
-    yield "servo.conditioning", scene.servo.conditioning
-    for i, membrane in enumerate(scene.membranes):
-        yield f"membrane[{i}].name", _one_line(membrane.name)
-        yield f"membrane[{i}].grip", membrane.tissue.grip
+    for path, word in scene_values(scene).items():
+        if isinstance(word, str) and _has_effect(path):
+            yield path, _one_line(word)
     for number in scene.fields():
-        if not number.path.startswith(_NO_EFFECT) and not any(part in number.path for part in _NO_EFFECT_OF_A_MEMBRANE):
+        if _has_effect(number.path):
             yield number.path, number.value
+
+
+def _has_effect(path: str) -> bool:
+    return not path.startswith(_NO_EFFECT) and not any(part in path for part in _NO_EFFECT_OF_A_MEMBRANE)
 
 
 def scene_file_text(scene: Scene) -> str:
