@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Compiles the core without exceptions and RTTI for WebAssembly and for a Cortex-M4F without an operating system.
-#   tools/small_targets.sh
+#   tools/small_targets.sh        the programs below
+#   tools/small_targets.sh gpu    the kernels in tests/core/gpu for a GPU (sm_90), with nvcc from PyPI; runs nothing
 # Two programs each: tests/core/without_exceptions, and tests/core/without_heap, which is linked without the C++ library
 # and its operator new. Node runs the WebAssembly programs, which must compute the expected forces. The programs for the
 # Cortex are linked and their sizes printed, but they do not run. Needs packages of Debian 12 and prints the missing
@@ -8,6 +9,21 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
+
+if [ "${1:-}" = gpu ]; then
+  out=build/small-targets
+  venv=$out/nvcc
+  [ -x "$venv/bin/pip" ] || python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check "nvidia-cuda-nvcc==13.0.*" "nvidia-nvvm==13.0.*" \
+    "nvidia-cuda-crt==13.0.*" "nvidia-cuda-cccl==13.0.*" "nvidia-cuda-runtime==13.0.*" ||
+    { echo "nvcc is not here: PyPI has no nvidia-cuda-nvcc 13.0 for this computer, or cannot be reached" >&2; exit 1; }
+  nvcc=$(echo "$venv"/lib/python3*/site-packages/nvidia/cu13/bin/nvcc)
+  # --expt-relaxed-constexpr: a kernel may call constexpr functions. -fmad=false: the bits of a processor.
+  "$nvcc" -std=c++20 --expt-relaxed-constexpr -fmad=false -O3 -arch=sm_90 -Icore -Werror all-warnings -cubin \
+    tests/core/gpu/kernel.cu -o "$out/kernel.cubin"
+  echo "tests/core/gpu, sm_90: $(stat -c %s "$out/kernel.cubin") bytes, compiled, not run"
+  exit
+fi
 
 packages="gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib clang lld wasi-libc
   libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32 nodejs"

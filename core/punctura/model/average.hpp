@@ -13,20 +13,20 @@ namespace punctura::detail {
 template <typename Scalar, std::size_t Most>
 class Segments {
  public:
-  explicit Segments(const BasicProfile<Scalar, Most>& profile) noexcept : profile_(profile) {}
+  constexpr explicit Segments(const BasicProfile<Scalar, Most>& profile) noexcept : profile_(profile) {}
 
   /// The number of the segment behind segment i (0 is in front of the first knot). Both knots of a jump count as one.
-  std::size_t next(std::size_t i) const noexcept {
+  constexpr std::size_t next(std::size_t i) const noexcept {
     while (++i < profile_.count && !(start(i) < start(i + 1))) {
     }
     return i;
   }
-  bool more(std::size_t i) const noexcept { return i < profile_.count; }
+  constexpr bool more(std::size_t i) const noexcept { return i < profile_.count; }
   /// Where segment i > 0 begins, m.
-  const Scalar& start(std::size_t i) const noexcept { return profile_.knots[i - 1].depth; }
+  constexpr const Scalar& start(std::size_t i) const noexcept { return profile_.knots[i - 1].depth; }
 
   /// Both edges on segment i as functions of x = q - from, m.
-  BandPiece<Scalar> line(std::size_t i, const Scalar& from) const noexcept {
+  constexpr BandPiece<Scalar> line(std::size_t i, const Scalar& from) const noexcept {
     if (i == 0) return {from, {}, {}};
     const auto& a = profile_.knots[i - 1];
     if (i == profile_.count) return {from, {a.lower, Scalar(0), Scalar(0)}, {a.upper, Scalar(0), Scalar(0)}};
@@ -43,13 +43,14 @@ class Segments {
 /// One edge of the average behind a break: from the lines at the point of the needle and where it came through the
 /// near face, and from its value so far. K06 (16) differentiated: Phi' = (phi(q) - phi(q - U)) / H.
 template <typename Scalar>
-Quadratic<Scalar> average_of(const Quadratic<Scalar>& front, const Quadratic<Scalar>& back, const Scalar& value,
-                             const Scalar& H) noexcept {
+constexpr Quadratic<Scalar> average_of(const Quadratic<Scalar>& front, const Quadratic<Scalar>& back,
+                                       const Scalar& value, const Scalar& H) noexcept {
   return {value, (front.c0 - back.c0) / H, (front.c1 - back.c1) / (2 * H)};
 }
 /// The same where the whole path lies on one line: the average is the line at the middle of the path.
 template <typename Scalar>
-Quadratic<Scalar> average_on(const Quadratic<Scalar>& line, const Scalar& U, const Scalar& U_over_H) noexcept {
+constexpr Quadratic<Scalar> average_on(const Quadratic<Scalar>& line, const Scalar& U,
+                                       const Scalar& U_over_H) noexcept {
   return {(line.c0 - line.c1 * (U / 2)) * U_over_H, line.c1 * U_over_H, Scalar(0)};
 }
 
@@ -58,7 +59,8 @@ Quadratic<Scalar> average_on(const Quadratic<Scalar>& line, const Scalar& U, con
 /// Breaks are all knots and all knots + U, merged in order. No difference of two primitives is taken: where the path
 /// lies on one line the value is exact, between two breaks it is carried on, and the piece is at most U long.
 template <typename Scalar, std::size_t Most, typename Pieces>
-void average(const BasicProfile<Scalar, Most>& profile, const Scalar& H, const Scalar& cos_beta, Pieces& to) noexcept {
+constexpr void average(const BasicProfile<Scalar, Most>& profile, const Scalar& H, const Scalar& cos_beta,
+                       Pieces& to) noexcept {
   const Segments<Scalar, Most> segments(profile);
   const Scalar U_over_H = 1 / cos_beta, U = H / cos_beta;  // K06 (17)
   std::size_t front = 0, back = 0;

@@ -22,7 +22,7 @@ struct Band {
 };
 
 template <typename M, Lanes V>
-Band<V> select(const M& mask, const Band<V>& a, const Band<V>& b) noexcept {
+constexpr Band<V> select(const M& mask, const Band<V>& a, const Band<V>& b) noexcept {
   return {select(mask, a.lower, b.lower), select(mask, a.upper, b.upper)};
 }
 

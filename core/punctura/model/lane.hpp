@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <type_traits>
 #include <utility>
+
+#include "punctura/model/constant_math.hpp"
 
 namespace punctura {
 
@@ -64,29 +67,41 @@ constexpr bool all(bool mask) noexcept { return mask; }
 
 using std::max;
 using std::min;
+// While a program is compiled, these have forms of their own. The results are the same for sqrt and abs, and within 2
+// units in the last place for tan and cos, which only constructors of laws need.
 template <std::floating_point T>
-T sqrt(T x) noexcept {
+constexpr T sqrt(T x) noexcept {
+  if (std::is_constant_evaluated()) return static_cast<T>(detail::constant_sqrt(static_cast<double>(x)));
   return std::sqrt(x);
 }
 template <std::floating_point T>
-T abs(T x) noexcept {
+constexpr T abs(T x) noexcept {
+  if (std::is_constant_evaluated()) return x > 0 ? x : 0 - x;
   return std::abs(x);
 }
 template <Lanes V>
-V abs(const V& x) noexcept {
+constexpr V abs(const V& x) noexcept {
   return max(x, -x);
+}
+template <std::floating_point T>
+constexpr bool finite(T x) noexcept {
+  if (std::is_constant_evaluated()) return x <= std::numeric_limits<T>::max() && x >= std::numeric_limits<T>::lowest();
+  return std::isfinite(x);
+}
+template <std::floating_point T>
+constexpr T tan(T x) noexcept {
+  if (!std::is_constant_evaluated()) return std::tan(x);
+  const detail::ConstantCircle circle(x);
+  return static_cast<T>(circle.sine / circle.cosine);
+}
+template <std::floating_point T>
+constexpr T cos(T x) noexcept {
+  if (!std::is_constant_evaluated()) return std::cos(x);
+  return static_cast<T>(detail::ConstantCircle(x).cosine);
 }
 template <std::floating_point T>
 T floor(T x) noexcept {
   return std::floor(x);
-}
-template <std::floating_point T>
-T tan(T x) noexcept {
-  return std::tan(x);
-}
-template <std::floating_point T>
-T cos(T x) noexcept {
-  return std::cos(x);
 }
 template <std::floating_point T>
 T exp(T x) noexcept {

@@ -55,8 +55,8 @@ concept LawWithMemory =
 
 /// Tells a law with memory where the proxy is: depth and dt as for FeelsTime. Returns true if the pieces change.
 template <LawWithMemory L>
-bool advance_memory(const L& law, typename L::Memory& memory, typename L::Scalar depth,
-                    [[maybe_unused]] typename L::Scalar dt) noexcept {
+constexpr bool advance_memory(const L& law, typename L::Memory& memory, typename L::Scalar depth,
+                              [[maybe_unused]] typename L::Scalar dt) noexcept {
   if constexpr (FeelsTime<L>)
     return law.advance(memory, depth, dt);
   else
@@ -64,7 +64,7 @@ bool advance_memory(const L& law, typename L::Memory& memory, typename L::Scalar
 }
 /// The time step of a coupling, s, for a law that feels it.
 template <LawWithMemory L, typename C>
-typename L::Scalar time_step([[maybe_unused]] const C& coupling) noexcept {
+constexpr typename L::Scalar time_step([[maybe_unused]] const C& coupling) noexcept {
   if constexpr (FeelsTime<L>)
     return coupling.period();
   else

@@ -16,7 +16,7 @@ struct LawConstants {
   Scalar Q;    ///< depth that is equivalent to the precompression, m
   Scalar F;    ///< dry friction of the shaft, N
 
-  LawConstants(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {
+  constexpr LawConstants(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {
     using namespace lane;
     const Scalar t = tan(needle.tip_angle), mu = membrane.friction, kappa = membrane.stiffness;
     X = needle.diameter / t;

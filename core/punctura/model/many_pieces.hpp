@@ -25,7 +25,7 @@ struct ManyPieces {
   std::size_t count = 1;  ///< pieces in use
   std::size_t here = 0;   ///< index() looks here first
 
-  ManyPieces() noexcept { breaks.fill(Scalar(std::numeric_limits<Lane<Scalar>>::infinity())); }
+  constexpr ManyPieces() noexcept { breaks.fill(Scalar(std::numeric_limits<Lane<Scalar>>::infinity())); }
 
   void describe(auto& parameters) const {
     for (std::size_t i = 0; i + 1 < count; ++i) parameters.numbers(breaks[i]);
@@ -33,13 +33,13 @@ struct ManyPieces {
   }
 
   /// Adds a break and the piece behind it. A piece of length 0 is replaced.
-  void add(const Scalar& at, const Piece& behind) noexcept {
+  constexpr void add(const Scalar& at, const Piece& behind) noexcept {
     if (count > 1 && !(breaks[count - 2] < at)) --count;
     breaks[count - 1] = at;
     pieces[count++] = behind;
   }
   /// Divides the piece that contains this depth (m), if it is no break yet.
-  void split(const Scalar& at) noexcept {
+  constexpr void split(const Scalar& at) noexcept {
     std::size_t i = 0;
     while (i + 1 < count && breaks[i] < at) ++i;
     if (i + 1 < count && !(at < breaks[i])) return;
@@ -50,7 +50,7 @@ struct ManyPieces {
   }
 
   /// Index of the piece that contains depth q (m).
-  std::size_t index(const Scalar& q) const noexcept {
+  constexpr std::size_t index(const Scalar& q) const noexcept {
     if (!(q >= breaks[0])) return 0;
     if (here > 0 && (here == 1 || q > breaks[here - 1]) && !(q > breaks[here])) return here;
     std::size_t first = 1, left = count - 2;
@@ -63,14 +63,14 @@ struct ManyPieces {
     return first;
   }
   /// Tells that the next depth will probably be near q (m). This only saves time.
-  void look_at(const Scalar& q) noexcept { here = index(q); }
+  constexpr void look_at(const Scalar& q) noexcept { here = index(q); }
 
-  Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
-  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept { return pieces[i].band(q); }
+  constexpr Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
+  constexpr Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept { return pieces[i].band(q); }
 
-  const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
-  const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
-  std::size_t last() const noexcept { return count - 1; }                ///< index of the last piece
+  constexpr const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
+  constexpr const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
+  constexpr std::size_t last() const noexcept { return count - 1; }                ///< index of the last piece
 };
 
 }  // namespace punctura

@@ -18,7 +18,7 @@ using NeedleF = BasicNeedle<float>;
 
 /// X, the length of the tip along the needle, m: X = w / tan(theta). K06 (15)
 template <typename Scalar>
-Scalar tip_length(const BasicNeedle<Scalar>& needle) noexcept {
+constexpr Scalar tip_length(const BasicNeedle<Scalar>& needle) noexcept {
   using namespace lane;
   return needle.diameter / tan(needle.tip_angle);
 }

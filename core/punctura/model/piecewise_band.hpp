@@ -45,11 +45,11 @@ struct BandPiece {
 };
 
 template <typename M, Lanes V>
-Quadratic<V> select(const M& mask, const Quadratic<V>& a, const Quadratic<V>& b) noexcept {
+constexpr Quadratic<V> select(const M& mask, const Quadratic<V>& a, const Quadratic<V>& b) noexcept {
   return {select(mask, a.c0, b.c0), select(mask, a.c1, b.c1), select(mask, a.c2, b.c2)};
 }
 template <typename M, Lanes V>
-BandPiece<V> select(const M& mask, const BandPiece<V>& a, const BandPiece<V>& b) noexcept {
+constexpr BandPiece<V> select(const M& mask, const BandPiece<V>& a, const BandPiece<V>& b) noexcept {
   return {select(mask, a.origin, b.origin), select(mask, a.lower, b.lower), select(mask, a.upper, b.upper)};
 }
 

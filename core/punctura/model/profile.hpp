@@ -49,15 +49,15 @@ struct BasicProfile {
 
   BasicProfile() = default;
   /// The first `Most` of these knots.
-  explicit BasicProfile(std::span<const BasicKnot<Scalar>> from) noexcept {
+  constexpr explicit BasicProfile(std::span<const BasicKnot<Scalar>> from) noexcept {
     for (const auto& knot : from) add(knot.depth, knot.lower, knot.upper);
   }
 
   /// Adds a knot. A full profile does not change.
-  void add(const Scalar& depth, const Scalar& lower, const Scalar& upper) noexcept {
+  constexpr void add(const Scalar& depth, const Scalar& lower, const Scalar& upper) noexcept {
     if (count < Most) knots[count++] = {depth, lower, upper};
   }
-  std::span<const BasicKnot<Scalar>> used() const noexcept { return {knots.data(), count}; }
+  constexpr std::span<const BasicKnot<Scalar>> used() const noexcept { return {knots.data(), count}; }
 };
 using Profile = BasicProfile<double>;
 

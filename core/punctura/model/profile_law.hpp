@@ -20,19 +20,22 @@ class BasicProfileLaw {
   using Pieces = ManyPieces<Scalar, 2 * Most + 1>;
 
   /// thickness: H, m. cos_beta: n.b, for pieces() and band().
-  BasicProfileLaw(const BasicProfile<Scalar, Most>& profile, Scalar thickness, Scalar cos_beta = Scalar(1)) noexcept
+  constexpr BasicProfileLaw(const BasicProfile<Scalar, Most>& profile, Scalar thickness,
+                            Scalar cos_beta = Scalar(1)) noexcept
       : profile_(profile), H_(thickness), pieces_(pieces(cos_beta)) {}
 
   /// The pieces for a needle that enters with n.b = cos_beta > 0.
-  Pieces pieces(Scalar cos_beta) const noexcept {
+  constexpr Pieces pieces(Scalar cos_beta) const noexcept {
     Pieces all;
     detail::average(profile_, H_, cos_beta, all);
     return all;
   }
-  const Pieces& pieces() const noexcept { return pieces_; }
-  Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< at depth q (m, along the needle), N
-  const BasicProfile<Scalar, Most>& profile() const noexcept { return profile_; }
-  Scalar thickness() const noexcept { return H_; }  ///< H, m
+  constexpr const Pieces& pieces() const noexcept { return pieces_; }
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    return pieces_.band(q);
+  }  ///< at depth q (m, along the needle), N
+  constexpr const BasicProfile<Scalar, Most>& profile() const noexcept { return profile_; }
+  constexpr Scalar thickness() const noexcept { return H_; }  ///< H, m
 
  private:
   BasicProfile<Scalar, Most> profile_;
@@ -48,8 +51,8 @@ static_assert(ObliqueLaw<ProfileLaw>);
 /// depths: of the knots, m, as in a profile. H: thickness, m. weights: one for each knot. While the needle slides in at
 /// known depths, the force is so linear in the knots' values.
 template <typename Scalar>
-void profile_weights(std::span<const Scalar> depths, const Scalar& H, const Scalar& cos_beta, const Scalar& q,
-                     std::span<Scalar> weights) noexcept {
+constexpr void profile_weights(std::span<const Scalar> depths, const Scalar& H, const Scalar& cos_beta, const Scalar& q,
+                               std::span<Scalar> weights) noexcept {
   using namespace lane;
   const std::size_t n = depths.size();
   for (Scalar& w : weights) w = Scalar(0);

@@ -24,7 +24,8 @@ class BasicThickLaw {
   using Pieces = PiecewiseBand<Scalar, 5>;
 
   /// obliquity: beta, rad. pieces() and band() use it.
-  BasicThickLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, Scalar obliquity = 0) noexcept
+  constexpr BasicThickLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
+                          Scalar obliquity = 0) noexcept
       : constants_(needle, membrane), H_(membrane.thickness) {
     using namespace lane;
     const Scalar cos_beta = cos(obliquity);
@@ -33,7 +34,7 @@ class BasicThickLaw {
   }
 
   /// The pieces for a needle that enters with n.b = cos_beta > 0.
-  Pieces pieces(Scalar cos_beta) const noexcept {
+  constexpr Pieces pieces(Scalar cos_beta) const noexcept {
     using namespace lane;
     const Scalar U = H_ / cos_beta;  // K06 (17)
     const Scalar X = constants_.X;
@@ -44,18 +45,20 @@ class BasicThickLaw {
     return all;
   }
 
-  const Pieces& pieces() const noexcept { return pieces_; }
-  Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< at depth q (m, along the needle), N
-  const LawConstants<Scalar>& constants() const noexcept { return constants_; }
-  Scalar thickness() const noexcept { return H_; }    ///< H, m
-  Scalar path_length() const noexcept { return U_; }  ///< U, m
+  constexpr const Pieces& pieces() const noexcept { return pieces_; }
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    return pieces_.band(q);
+  }  ///< at depth q (m, along the needle), N
+  constexpr const LawConstants<Scalar>& constants() const noexcept { return constants_; }
+  constexpr Scalar thickness() const noexcept { return H_; }    ///< H, m
+  constexpr Scalar path_length() const noexcept { return U_; }  ///< U, m
 
  private:
   /// The pieces of one edge: K06 (18) for A = A_I and sign = -1, K06 (19) for A = A_O and sign = +1.
   ///
   /// The comments give the printed cases without the sign. Each piece is a function of x = q - (start of the piece).
   /// U_over_H is a parameter because H may be 0.
-  std::array<Quadratic<Scalar>, 5> edge(Scalar A, Scalar U, Scalar U_over_H, int sign) const noexcept {
+  constexpr std::array<Quadratic<Scalar>, 5> edge(Scalar A, Scalar U, Scalar U_over_H, int sign) const noexcept {
     using namespace lane;
     using Piece = Quadratic<Scalar>;
     const auto& [X, A_I, A_O, Q, F] = constants_;

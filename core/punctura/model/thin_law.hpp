@@ -18,7 +18,7 @@ class BasicThinLaw {
  public:
   using Scalar = Scalar_;
 
-  BasicThinLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept
+  constexpr BasicThinLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept
       : constants_(needle, membrane) {
     const auto& [X, A_I, A_O, Q, F] = constants_;
     pieces_.breaks = {0, X};
@@ -28,10 +28,10 @@ class BasicThinLaw {
   }
 
   /// The band at depth q (m), N.
-  Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }
+  constexpr Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }
 
-  const PiecewiseBand<Scalar, 3>& pieces() const noexcept { return pieces_; }
-  const LawConstants<Scalar>& constants() const noexcept { return constants_; }
+  constexpr const PiecewiseBand<Scalar, 3>& pieces() const noexcept { return pieces_; }
+  constexpr const LawConstants<Scalar>& constants() const noexcept { return constants_; }
 
  private:
   LawConstants<Scalar> constants_;

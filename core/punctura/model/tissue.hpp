@@ -77,20 +77,20 @@ using Tissue = BasicTissue<double>;
 
 /// Whether grip, tip and shaft are those of K06.
 template <typename Scalar>
-bool has_k06_grip(const BasicTissue<Scalar>& t) noexcept {
+constexpr bool has_k06_grip(const BasicTissue<Scalar>& t) noexcept {
   const bool straight = t.grip == GripShape::linear || (t.grip == GripShape::exponential && t.growth == 0);
   return straight && t.tip_length == 0 && t.tail_floor == 1 && t.profile.empty();
 }
 
 /// Whether a needle changes the membrane.
 template <typename Scalar>
-bool remembers(const BasicTissue<Scalar>& t) noexcept {
+constexpr bool remembers(const BasicTissue<Scalar>& t) noexcept {
   return t.cutting > 0 || t.set > 0;
 }
 
 /// Whether this is K06's membrane: all additions are off.
 template <typename Scalar>
-bool is_k06(const BasicTissue<Scalar>& t) noexcept {
+constexpr bool is_k06(const BasicTissue<Scalar>& t) noexcept {
   return has_k06_grip(t) && !remembers(t);
 }
 

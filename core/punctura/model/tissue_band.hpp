@@ -49,7 +49,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   /// Takes the grip of a hole up to this depth (m), which is behind the first break. Behind it, subtracts a part of
   /// another band, that of the slices that the tip has passed.
   template <std::size_t M>
-  void open(const Scalar& to, const ManyPieces<Scalar, M>& passed, const Scalar& part) noexcept {
+  constexpr void open(const Scalar& to, const ManyPieces<Scalar, M>& passed, const Scalar& part) noexcept {
     First::split(to);
     for (std::size_t k = 0; k + 1 < passed.count; ++k)
       if (to < passed.breaks[k]) First::split(passed.breaks[k]);
@@ -68,17 +68,17 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     made.at = to;
   }
   /// Takes the grip of a hole in which the whole tip has passed the wall.
-  void open_whole() noexcept {
+  constexpr void open_whole() noexcept {
     for (std::size_t k = 0; k < First::count; ++k) keep(First::pieces[k]);
   }
   /// Places the fronts, once all pieces are there. to: m, the deepest point that the tip has reached.
-  void set_fronts(const Scalar& to) noexcept {
+  constexpr void set_fronts(const Scalar& to) noexcept {
     if (made.at > 0) made.piece = First::index(made.at);
     cut = made;
     set_cut(to);
   }
   /// The tip has reached this depth (m). It only goes on.
-  void set_cut(const Scalar& to) noexcept {
+  constexpr void set_cut(const Scalar& to) noexcept {
     if (!cuts) return;
     if (to < whole) {
       move(cut, to);
@@ -91,23 +91,25 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   }
 
   /// Index of the piece that contains depth q (m), for band(q, i), piece(i) and end(i).
-  std::size_t index(const Scalar& q) const noexcept { return First::index(q) + (q > cut.at ? 1u : 0u); }
-  Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
-  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
+  constexpr std::size_t index(const Scalar& q) const noexcept { return First::index(q) + (q > cut.at ? 1u : 0u); }
+  constexpr Band<Scalar> band(const Scalar& q) const noexcept { return band(q, index(q)); }  ///< at depth q (m), N
+  constexpr Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
     if (q >= cut.at + rounding) return First::pieces[i - 1].band(q);  // behind both fronts, in the shortest way
     if (near(q, cut) || near(q, made)) return at_front(q);
     return piece(i).band(q);
   }
 
-  Piece piece(std::size_t i) const noexcept {
+  constexpr Piece piece(std::size_t i) const noexcept {
     const std::size_t k = in_first(i);
     Piece piece = First::pieces[k];
     if (i <= cut.piece) drop_cutting(k, piece);
     return piece;
   }
   /// Where piece i ends, m.
-  const Scalar& end(std::size_t i) const noexcept { return i == cut.piece ? cut.at : First::breaks[in_first(i)]; }
-  std::size_t last() const noexcept { return First::count; }  ///< index of the last piece
+  constexpr const Scalar& end(std::size_t i) const noexcept {
+    return i == cut.piece ? cut.at : First::breaks[in_first(i)];
+  }
+  constexpr std::size_t last() const noexcept { return First::count; }  ///< index of the last piece
 
   /// Depths around a depth, at which one piece is the band: from `first` to `last`, both with it.
   struct Around {
@@ -115,7 +117,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     Scalar first, last;  ///< m
   };
   /// The depths around q (m). At a front it is q alone. Not all depths of the piece need to be in it.
-  Around around(const Scalar& q) const noexcept {
+  constexpr Around around(const Scalar& q) const noexcept {
     if (near(q, cut) || near(q, made)) {
       const Band<Scalar> band = at_front(q);
       return {{q, {band.lower}, {band.upper}}, q, q};
@@ -143,15 +145,15 @@ struct TissueBand : ManyPieces<Scalar_, N> {
   static constexpr One rounding = std::max(One(1e-10), std::numeric_limits<One>::epsilon());
 
   /// Takes the cutting out of piece k of First.
-  void drop_cutting(std::size_t k, Piece& piece) const noexcept {
+  constexpr void drop_cutting(std::size_t k, Piece& piece) const noexcept {
     piece.lower.c0 += cutting[k].c0;
     piece.lower.c1 += cutting[k].c1;
   }
-  void keep(Piece& piece) const noexcept {
+  constexpr void keep(Piece& piece) const noexcept {
     for (Quadratic<Scalar>* edge : {&piece.lower, &piece.upper})
       *edge = {kept * edge->c0, kept * edge->c1, kept * edge->c2};
   }
-  void move(Front& front, const Scalar& to) const noexcept {
+  constexpr void move(Front& front, const Scalar& to) const noexcept {
     if (!(to > 0)) return;
     std::size_t piece = front.piece;  // a front goes on from its last place
     if (piece == 0) piece = First::index(to);
@@ -159,7 +161,7 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     front = {to, piece};
   }
   /// The band between both sides of the fronts at depth q.
-  Band<Scalar> at_front(const Scalar& q) const noexcept {
+  constexpr Band<Scalar> at_front(const Scalar& q) const noexcept {
     const bool hole_ends = near(q, made);
     const std::size_t first = hole_ends ? made.piece : cut.piece;
     std::size_t last = hole_ends ? made.piece + 1 : 0;
@@ -169,14 +171,14 @@ struct TissueBand : ManyPieces<Scalar_, N> {
     for (std::size_t i = first + 1; i <= last; ++i) band = hull(band, piece(i).band(q));
     return band;
   }
-  static bool near(const Scalar& q, const Front& front) noexcept {
+  static constexpr bool near(const Scalar& q, const Front& front) noexcept {
     return q < front.at + rounding && q > front.at - rounding;
   }
-  static Band<Scalar> hull(const Band<Scalar>& a, const Band<Scalar>& b) noexcept {
+  static constexpr Band<Scalar> hull(const Band<Scalar>& a, const Band<Scalar>& b) noexcept {
     return {a.lower < b.lower ? a.lower : b.lower, a.upper < b.upper ? b.upper : a.upper};
   }
   /// The number in First of piece i.
-  std::size_t in_first(std::size_t i) const noexcept { return i - (i > cut.piece ? 1u : 0u); }
+  constexpr std::size_t in_first(std::size_t i) const noexcept { return i - (i > cut.piece ? 1u : 0u); }
 };
 
 }  // namespace punctura

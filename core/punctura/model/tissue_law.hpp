@@ -40,8 +40,9 @@ class BasicTissueLaw {
   using Memory = BasicHole<Scalar>;
 
   /// cos_beta: n.b, for pieces() without n.b. chords: see profile_of().
-  BasicTissueLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
-                 const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1), std::size_t chords = 0) noexcept
+  constexpr BasicTissueLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
+                           const BasicTissue<Scalar>& tissue, Scalar cos_beta = Scalar(1),
+                           std::size_t chords = 0) noexcept
       : k06_(needle, membrane),
         has_k06_grip_(has_k06_grip(tissue)),
         remembers_(punctura::remembers(tissue)),
@@ -58,8 +59,8 @@ class BasicTissueLaw {
   }
 
   /// The pieces of the untouched wall for a needle that enters with n.b = cos_beta > 0.
-  Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
-  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
+  constexpr Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
+  constexpr Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
     Pieces all;
     if (has_k06_grip_)
       add_k06(cos_beta, all);
@@ -74,45 +75,47 @@ class BasicTissueLaw {
     all.set_fronts(memory.cut);
     return all;
   }
-  Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }
-  const Pieces& pieces() const noexcept { return pieces_; }
+  constexpr Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }
+  constexpr const Pieces& pieces() const noexcept { return pieces_; }
 
-  bool remembers() const noexcept { return remembers_; }  ///< whether a needle changes the wall
+  constexpr bool remembers() const noexcept { return remembers_; }  ///< whether a needle changes the wall
   /// The proxy has reached this depth, m along the needle.
-  bool advance(Memory& memory, Scalar depth) const noexcept {
+  constexpr bool advance(Memory& memory, Scalar depth) const noexcept {
     if (!remembers_ || !(depth > memory.cut)) return false;
     memory.cut = depth;
     return C_ > 0;
   }
   /// The tip is outside, in front: from now on, its way is a hole.
-  bool leave(Memory& memory) const noexcept {
+  constexpr bool leave(Memory& memory) const noexcept {
     if (!(memory.made < memory.cut)) return false;
     memory.made = memory.cut;
     return set_ > 0;
   }
   /// Changes these pieces to this memory: in little time while the needle is in the wall.
-  void refresh(Pieces& all, const Memory& memory) const noexcept {
+  constexpr void refresh(Pieces& all, const Memory& memory) const noexcept {
     if (set_ > 0 && all.hole < memory.made)
       lay_out_again(all, memory);
     else
       all.set_cut(memory.cut);
   }
 
-  Band<Scalar> band(Scalar q) const noexcept { return pieces_.band(q); }  ///< of the untouched wall at q (m), N
-  Scalar thickness() const noexcept { return H_; }                        ///< H, m
-  Scalar tip_length() const noexcept { return X_; }                       ///< X, m
+  constexpr Band<Scalar> band(Scalar q) const noexcept {
+    return pieces_.band(q);
+  }  ///< of the untouched wall at q (m), N
+  constexpr Scalar thickness() const noexcept { return H_; }   ///< H, m
+  constexpr Scalar tip_length() const noexcept { return X_; }  ///< X, m
 
  private:
-  [[gnu::noinline, gnu::cold]] void lay_out_again(Pieces& all, const Memory& memory) const noexcept {
+  [[gnu::noinline, gnu::cold]] constexpr void lay_out_again(Pieces& all, const Memory& memory) const noexcept {
     all = pieces(all.cos_beta, memory);
   }
-  void add_k06(const Scalar& cos_beta, Pieces& all) const noexcept {
+  constexpr void add_k06(const Scalar& cos_beta, Pieces& all) const noexcept {
     const auto own = k06_.pieces(cos_beta);
     for (std::size_t i = 0; i < own.breaks.size(); ++i) all.add(own.breaks[i], own.pieces[i + 1]);
   }
   /// The hole of a needle that has left: its tip had been at this depth, m. Behind it, the slices that the tip had
   /// passed lie on the shaft. They lose their part of the average over the path.
-  void open(const Scalar& made, Pieces& all) const noexcept {
+  constexpr void open(const Scalar& made, Pieces& all) const noexcept {
     if (!(made < all.whole)) return all.open_whole();
     const Scalar passed = (made - X_) * all.cos_beta;  // m, along the normal
     ManyPieces<Scalar, 2 * max_knots + 1> slices;
@@ -121,7 +124,7 @@ class BasicTissueLaw {
     all.open(made, slices, set_ * passed / H_);
   }
   /// Adds C times the part of the path that lies on the tip, over H: the average of C on [0, X].
-  void add_cutting(const Scalar& cos_beta, Pieces& all) const noexcept {
+  constexpr void add_cutting(const Scalar& cos_beta, Pieces& all) const noexcept {
     using namespace lane;
     const Scalar U = H_ / cos_beta;
     for (const Scalar& at : {Scalar(0), U, X_, Scalar(X_ + U)}) all.split(at);

@@ -84,16 +84,16 @@ class Vector3 {
     return {v_[1] * b.v_[2] - v_[2] * b.v_[1], v_[2] * b.v_[0] - v_[0] * b.v_[2], v_[0] * b.v_[1] - v_[1] * b.v_[0]};
   }
   constexpr Scalar squaredNorm() const noexcept { return dot(*this); }
-  Scalar norm() const noexcept {
+  constexpr Scalar norm() const noexcept {
     using namespace lane;
     return sqrt(squaredNorm());
   }
 
   /// The length, also if squares overflow or underflow. In lanes it must be finite, and no denormal number.
-  Scalar stableNorm() const noexcept {
+  constexpr Scalar stableNorm() const noexcept {
     const Scalar largest = maxAbs();
     if constexpr (OneNumber<Scalar>) {
-      if (!allFinite()) return std::abs(v_[0]) + std::abs(v_[1]) + std::abs(v_[2]);  // infinite, or NaN
+      if (!allFinite()) return lane::abs(v_[0]) + lane::abs(v_[1]) + lane::abs(v_[2]);  // infinite, or NaN
       if (largest < 1 / std::numeric_limits<Scalar>::max())
         return std::hypot(v_[0], v_[1], v_[2]);  // 1 / largest would overflow
     }
@@ -101,22 +101,24 @@ class Vector3 {
   }
 
   /// The vector scaled to length 1. A vector of length 0 stays unchanged.
-  Vector3 normalized() const noexcept {
+  constexpr Vector3 normalized() const noexcept {
     const Scalar squared = squaredNorm();
-    return squared > 0 ? *this / std::sqrt(squared) : *this;
+    return squared > 0 ? *this / lane::sqrt(squared) : *this;
   }
   /// The same as normalized(), also if squares overflow or underflow.
-  Vector3 stableNormalized() const noexcept {
+  constexpr Vector3 stableNormalized() const noexcept {
     const Scalar largest = maxAbs();
     if (!(largest > 0)) return *this;
-    return *this / (std::sqrt((*this / largest).squaredNorm()) * largest);
+    return *this / (lane::sqrt((*this / largest).squaredNorm()) * largest);
   }
-  Scalar maxAbs() const noexcept {
+  constexpr Scalar maxAbs() const noexcept {
     using namespace lane;
     return max(max(abs(v_[0]), abs(v_[1])), abs(v_[2]));
   }
-  Mask<Scalar> isZero() const noexcept { return v_[0] == 0 && v_[1] == 0 && v_[2] == 0; }
-  bool allFinite() const noexcept { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
+  constexpr Mask<Scalar> isZero() const noexcept { return v_[0] == 0 && v_[1] == 0 && v_[2] == 0; }
+  constexpr bool allFinite() const noexcept {
+    return lane::finite(v_[0]) && lane::finite(v_[1]) && lane::finite(v_[2]);
+  }
 
  private:
   std::array<Scalar, 3> v_{};
@@ -125,35 +127,35 @@ class Vector3 {
 using Vector3d = Vector3<double>;
 
 template <typename M, Lanes V>
-Vector3<V> select(const M& mask, const Vector3<V>& a, const Vector3<V>& b) noexcept {
+constexpr Vector3<V> select(const M& mask, const Vector3<V>& a, const Vector3<V>& b) noexcept {
   return {select(mask, a.x(), b.x()), select(mask, a.y(), b.y()), select(mask, a.z(), b.z())};
 }
 
 /// Whether p (m) is a valid coordinate: finite, and at most 1000 km from 0. Beyond that, filters and couplings could
 /// overflow.
 template <typename Scalar>
-Mask<Scalar> is_place(const Scalar& p) noexcept {
+constexpr Mask<Scalar> is_place(const Scalar& p) noexcept {
   using namespace lane;
   return abs(p) <= Lane<Scalar>(1e6);
 }
 /// Whether all coordinates of p (m) are valid.
 template <typename Scalar>
-Mask<Scalar> is_place(const Vector3<Scalar>& p) noexcept {
+constexpr Mask<Scalar> is_place(const Vector3<Scalar>& p) noexcept {
   return is_place(p.x()) && is_place(p.y()) && is_place(p.z());
 }
 /// Whether v has the length 1, within 0.5 %.
 template <typename Scalar>
-bool is_unit(const Vector3<Scalar>& v) noexcept {
-  return std::abs(v.squaredNorm() - 1) < Scalar(1e-2);
+constexpr bool is_unit(const Vector3<Scalar>& v) noexcept {
+  return lane::abs(v.squaredNorm() - 1) < Scalar(1e-2);
 }
 static_assert(std::is_trivially_copyable_v<Vector3d>);
 
 /// The vector as three doubles, the type that records store.
 template <OneNumber Scalar>
-std::array<double, 3> to_array(const Vector3<Scalar>& v) noexcept {
+constexpr std::array<double, 3> to_array(const Vector3<Scalar>& v) noexcept {
   return v.template cast<double>().array();
 }
 /// The vector of three doubles.
-inline Vector3d to_vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
+constexpr Vector3d to_vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

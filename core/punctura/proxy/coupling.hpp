@@ -49,7 +49,7 @@ struct SampledCoupling {
   Scalar inv_g;     ///< T / (K T + B), m/N
   Scalar B_over_D;  ///< B / (K T + B): without force, e is this fraction of e_prev
 
-  SampledCoupling(const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
+  constexpr SampledCoupling(const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
       : K(coupling.stiffness),
         B(coupling.damping),
         T(period),
@@ -57,24 +57,24 @@ struct SampledCoupling {
         inv_g(T / (K * T + B)),
         B_over_D(B / (K * T + B)) {}
 
-  Scalar period() const noexcept { return T; }  ///< s, for a law that feels time
+  constexpr Scalar period() const noexcept { return T; }  ///< s, for a law that feels time
   void describe(auto& parameters) const { parameters.numbers(K, B, T); }
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38).
   template <typename Vector>
-  Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
-                       const Memory<Vector>&) const noexcept {
+  constexpr Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
+                                 const Memory<Vector>&) const noexcept {
     return -g * (p - p_prev) + K * e_prev;
   }
 
   /// e after a tick without force, m. K06 (25) with f = 0.
   template <typename Vector>
-  Vector free_offset(const Vector& e_prev, const Memory<Vector>&) const noexcept {
+  constexpr Vector free_offset(const Vector& e_prev, const Memory<Vector>&) const noexcept {
     return B_over_D * e_prev;
   }
 
   template <typename Vector>
-  void advance(Memory<Vector>&, const Vector&, const Vector&) const noexcept {}
+  constexpr void advance(Memory<Vector>&, const Vector&, const Vector&) const noexcept {}
 };
 
 /// e (m), rounded so that it never becomes a denormal number. The proxies in space use it.
@@ -82,14 +82,14 @@ struct SampledCoupling {
 /// Without force, e decays by the factor B / (K T + B) in each tick, and would become denormal. Many processors compute
 /// slowly with denormal numbers. To add and subtract a tiny number prevents this without a branch.
 template <typename Scalar>
-Vector3<Scalar> without_denormals(const Vector3<Scalar>& e) noexcept {
-  const auto tiny = Vector3<Scalar>::Constant(std::sqrt(std::numeric_limits<Lane<Scalar>>::min()));
+constexpr Vector3<Scalar> without_denormals(const Vector3<Scalar>& e) noexcept {
+  const auto tiny = Vector3<Scalar>::Constant(lane::sqrt(std::numeric_limits<Lane<Scalar>>::min()));
   return (e + tiny) - tiny;
 }
 /// The same on a line.
 template <std::floating_point Scalar>
-Scalar without_denormals(Scalar e) noexcept {
-  const Scalar tiny = std::sqrt(std::numeric_limits<Scalar>::min());
+constexpr Scalar without_denormals(Scalar e) noexcept {
+  const Scalar tiny = lane::sqrt(std::numeric_limits<Scalar>::min());
   return (e + tiny) - tiny;
 }
 

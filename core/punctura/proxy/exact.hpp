@@ -12,8 +12,8 @@ namespace punctura {
 struct Exact {
   /// One tick on the axis of the needle. p: depth of the device, m. K06 (21)-(23)
   template <typename L, typename C>
-  static LineTick<typename L::Scalar> step(const LineParams<L, C>& params, LineState<L, C>& state,
-                                           typename L::Scalar p) noexcept {
+  static constexpr LineTick<typename L::Scalar> step(const LineParams<L, C>& params, LineState<L, C>& state,
+                                                     typename L::Scalar p) noexcept {
     using namespace lane;
     using Scalar = typename L::Scalar;
     const C& c = params.coupling;
@@ -30,9 +30,9 @@ struct Exact {
   /// One tick in space. p: position of the device, m. axis: the needle's unit direction. K06 (41), with (21)-(23) for
   /// f_b
   template <typename L, typename C>
-  static SpaceTick<typename L::Scalar> step(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                            const Vector3<typename L::Scalar>& p,
-                                            const Vector3<typename L::Scalar>& axis) noexcept {
+  static constexpr SpaceTick<typename L::Scalar> step(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+                                                      const Vector3<typename L::Scalar>& p,
+                                                      const Vector3<typename L::Scalar>& axis) noexcept {
     using namespace lane;
     using Scalar = typename L::Scalar;
     using Vector = Vector3<Scalar>;

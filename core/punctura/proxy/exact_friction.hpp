@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "punctura/model/piecewise_band.hpp"
 #include "punctura/proxy/solver.hpp"
@@ -21,11 +22,14 @@ struct Friction {
 /// denominator loses digits by cancellation. Then either a < 0 or there is no root, and -(sqrt(b^2 - 4ac) + b) / 2a
 /// is the same root without cancellation.
 template <typename Scalar>
-Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
+constexpr Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
   using namespace lane;
   const auto straight = a == 0;
   if (all(straight)) return -c / b;  // most pieces are straight: this skips the square root
-  const Scalar root = sqrt(b * b - 4 * a * c);
+  const Scalar square = b * b - 4 * a * c;
+  if constexpr (OneNumber<Scalar>)
+    if (std::is_constant_evaluated() && square < 0) return Scalar(-1);  // Clang has no NaN in a constant
+  const Scalar root = sqrt(square);
   const auto falls = b <= 0;
   const Scalar numerator = select(falls, 2 * c, -(root + b)), denominator = select(falls, root - b, 2 * a);
   return select(straight, -c, numerator) / select(straight, b, denominator);
@@ -42,8 +46,8 @@ Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
 /// (thin law), gap can change its sign in the jump. The proxy then rests on the break, and its force lies between the
 /// two values of the edge.
 template <int direction, typename Pieces>
-typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
-                              typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
+constexpr typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
+                                        typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   using Scalar = typename Pieces::Scalar;
   const std::size_t last = direction > 0 ? band.last() : 0;
   Scalar start = q_prev;
@@ -68,8 +72,8 @@ typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces
 ///
 /// slide() is faster for one number: it mostly needs one piece and skips the others.
 template <int direction, typename Pieces>
-typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar q_prev, typename Pieces::Scalar f_star,
-                                     typename Pieces::Scalar g) noexcept {
+constexpr typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar q_prev,
+                                               typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
   using namespace lane;
   using Scalar = typename Pieces::Scalar;
   constexpr std::size_t last = Pieces::size - 1;
@@ -107,8 +111,9 @@ typename Pieces::Scalar masked_slide(const Pieces& band, typename Pieces::Scalar
 /// f* holds the proxy still. If f* lies in the band at q_prev, the proxy sticks. If f* is below the band, the proxy
 /// slides in. If f* is above the band, it slides out. Each piece is visited at most once, so the time is bounded.
 template <typename Pieces>
-Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename Pieces::Scalar q_prev,
-                                                 typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
+constexpr Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename Pieces::Scalar q_prev,
+                                                           typename Pieces::Scalar f_star,
+                                                           typename Pieces::Scalar g) noexcept {
   using namespace lane;
   using Scalar = typename Pieces::Scalar;
   if constexpr (OneNumber<Scalar>) {
@@ -131,7 +136,7 @@ Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename 
 
 /// f* (N), clamped to the band at q*, K06 (32), and the phase by (29).
 template <typename Scalar>
-Friction<Scalar> clamped_friction(const Band<Scalar>& band, Scalar f_star) noexcept {
+constexpr Friction<Scalar> clamped_friction(const Band<Scalar>& band, Scalar f_star) noexcept {
   using namespace lane;
   using P = PhaseOf<Scalar>;
   const Scalar f = band.clamp(f_star);

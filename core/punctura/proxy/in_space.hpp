@@ -91,7 +91,7 @@ struct SpaceTick {
 };
 
 template <typename M, Lanes V>
-SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b) noexcept {
+constexpr SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b) noexcept {
   return {select(mask, a.force, b.force),         select(mask, a.proxy, b.proxy),
           select(mask, a.direction, b.direction), select(mask, a.axial_force, b.axial_force),
           select(mask, a.depth, b.depth),         select(mask, a.band, b.band),
@@ -100,7 +100,7 @@ SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceTick<V>& b)
 
 /// Computes the pieces of the law for the angle of the needle and for the memory of the membrane.
 template <typename L, typename C>
-void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept {
+constexpr void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>)
     state.pieces = params.law.pieces(state.cos_beta, state.law);
   else
@@ -112,8 +112,8 @@ void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept 
 ///
 /// A needle that grazes becomes barred.
 template <typename L, typename C>
-void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typename SpaceState<L, C>::Vector& axis,
-           const Mask<typename L::Scalar>& passed) noexcept {
+constexpr void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+                     const typename SpaceState<L, C>::Vector& axis, const Mask<typename L::Scalar>& passed) noexcept {
   using namespace lane;
   using Scalar = typename L::Scalar;
   using P = PhaseOf<Scalar>;
@@ -132,10 +132,9 @@ void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const typen
 /// memory whose numbers have just been stored there one by one. GCC 12 -O2 on Zen 2: a tick of the exact solver in
 /// eight membranes takes 154 ns instead of 171.
 template <typename L, typename C, typename Scalar>
-[[gnu::always_inline]] inline SpaceTick<Scalar> settle_inside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                                              const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
-                                                              const Vector3<Scalar>& f_star,
-                                                              const Friction<Scalar>& friction, Scalar depth) noexcept {
+[[gnu::always_inline]] constexpr SpaceTick<Scalar> settle_inside(
+    const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
+    const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth) noexcept {
   const Vector3<Scalar> e_prev = state.e, b = state.b;
   const Band<Scalar> band = state.pieces.band(depth);
   const Vector3<Scalar> f = f_star + b * (friction.force - b.dot(f_star));                 // K06 (39)
@@ -164,8 +163,8 @@ template <typename L, typename C, typename Scalar>
 
 /// Ends a tick outside or barred: f = 0.
 template <typename L, typename C, typename Scalar>
-SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                 const Vector3<Scalar>& p) noexcept {
+constexpr SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+                                           const Vector3<Scalar>& p) noexcept {
   const Vector3<Scalar> e_prev = state.e;
   state.f = {};                                                                      // K06 (41), outside
   state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0
@@ -182,9 +181,10 @@ SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, 
 
 /// Ends a tick in which some lanes are inside and some are not.
 template <typename L, typename C, typename Scalar>
-SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p,
-                              const Vector3<Scalar>& p_prev, const Vector3<Scalar>& f_star,
-                              const Friction<Scalar>& friction, Scalar depth, const Mask<Scalar>& is_inside) noexcept {
+constexpr SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
+                                        const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
+                                        const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth,
+                                        const Mask<Scalar>& is_inside) noexcept {
   using namespace lane;
   SpaceState<L, C> outside = state;
   const SpaceTick<Scalar> of_outside = settle_outside(params, outside, p);

@@ -18,27 +18,27 @@ class MixedPieces {
 
   MixedPieces() = default;
   template <std::size_t i, typename Pieces>
-  MixedPieces(std::in_place_index_t<i> which, const Pieces& pieces) noexcept : of_(which, pieces) {}
+  constexpr MixedPieces(std::in_place_index_t<i> which, const Pieces& pieces) noexcept : of_(which, pieces) {}
 
-  std::size_t index(const Scalar& q) const noexcept {
+  constexpr std::size_t index(const Scalar& q) const noexcept {
     return read([&](const auto& one) { return one.index(q); });
   }
-  Band<Scalar> band(const Scalar& q) const noexcept {
+  constexpr Band<Scalar> band(const Scalar& q) const noexcept {
     return read([&](const auto& one) { return one.band(q); });
   }
-  Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
+  constexpr Band<Scalar> band(const Scalar& q, std::size_t i) const noexcept {
     return read([&](const auto& one) { return one.band(q, i); });
   }
-  BandPiece<Scalar> piece(std::size_t i) const noexcept {
+  constexpr BandPiece<Scalar> piece(std::size_t i) const noexcept {
     return read([&](const auto& one) -> BandPiece<Scalar> { return one.piece(i); });
   }
-  Scalar end(std::size_t i) const noexcept {
+  constexpr Scalar end(std::size_t i) const noexcept {
     return read([&](const auto& one) -> Scalar { return one.end(i); });
   }
-  std::size_t last() const noexcept {
+  constexpr std::size_t last() const noexcept {
     return read([](const auto& one) { return one.last(); });
   }
-  void look_at(const Scalar& q) noexcept {
+  constexpr void look_at(const Scalar& q) noexcept {
     std::visit(
         [&](auto& one) noexcept {
           if constexpr (LooksAhead<std::remove_cvref_t<decltype(one)>>) one.look_at(q);
@@ -50,13 +50,13 @@ class MixedPieces {
   }
   /// The pieces of law i, which must be in use.
   template <std::size_t i>
-  auto& of() noexcept {
+  constexpr auto& of() noexcept {
     return *std::get_if<i>(&of_);
   }
 
  private:
   template <typename Visitor>
-  auto read(Visitor&& visitor) const noexcept {
+  constexpr auto read(Visitor&& visitor) const noexcept {
     return std::visit(visitor, of_);
   }
 
@@ -102,11 +102,13 @@ class MixedLaw {
     visit([&]<std::size_t i>(const auto& one) { pieces_ = Pieces(std::in_place_index<i>, one.pieces()); });
   }
 
-  const Pieces& pieces() const noexcept { return pieces_; }
-  Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
+  constexpr const Pieces& pieces() const noexcept { return pieces_; }
+  constexpr Pieces pieces(Scalar cos_beta) const noexcept { return pieces(cos_beta, Memory{}); }
 
-  Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept { return compute_pieces(memory, cos_beta); }
-  Pieces pieces(const Memory& memory) const noexcept { return compute_pieces(memory); }
+  constexpr Pieces pieces(Scalar cos_beta, const Memory& memory) const noexcept {
+    return compute_pieces(memory, cos_beta);
+  }
+  constexpr Pieces pieces(const Memory& memory) const noexcept { return compute_pieces(memory); }
 
   bool advance(Memory& memory, Scalar depth) const noexcept
     requires(!(FeelsTime<Laws> || ...))
@@ -138,7 +140,7 @@ class MixedLaw {
 
   /// Calls visitor<i>(law) for the law in use. i is its index in Laws.
   template <typename Visitor>
-  void visit(Visitor&& visitor) const noexcept {
+  constexpr void visit(Visitor&& visitor) const noexcept {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       ((law_.index() == i ? visitor.template operator()<i>(*std::get_if<i>(&law_)) : void()), ...);
     }(std::index_sequence_for<Laws...>());
@@ -148,7 +150,7 @@ class MixedLaw {
   template <std::size_t i>
   using Each = std::tuple_element_t<i, std::tuple<Laws...>>;
 
-  bool advance_any(Memory& memory, Scalar depth, Scalar dt) const noexcept {
+  constexpr bool advance_any(Memory& memory, Scalar depth, Scalar dt) const noexcept {
     bool changed = false;
     visit([&]<std::size_t i>(const auto& law) {
       if constexpr (LawWithMemory<Each<i>>) changed = advance_memory(law, own<i>(memory), depth, dt);
@@ -157,13 +159,13 @@ class MixedLaw {
   }
   /// The memory of law i, which is in use.
   template <std::size_t i>
-  static auto& own(Memory& memory) noexcept {
+  static constexpr auto& own(Memory& memory) noexcept {
     if (memory.index() != i) memory.template emplace<i>();
     return *std::get_if<i>(&memory);
   }
   /// The pieces of the law in use for cos_beta. Without cos_beta: for the obliquity of the law's constructor.
   template <typename... Angle>
-  Pieces compute_pieces(const Memory& memory, Angle... cos_beta) const noexcept {
+  constexpr Pieces compute_pieces(const Memory& memory, Angle... cos_beta) const noexcept {
     Pieces all;
     visit([&]<std::size_t i>(const auto& law) {
       if constexpr (LawWithMemory<Each<i>>) {

@@ -63,13 +63,13 @@ struct LineTick {
 
 /// Computes the pieces of the law for the memory of the membrane.
 template <typename L, typename C>
-void lay_out(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
+constexpr void lay_out(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>) state.pieces = params.law.pieces(state.law);
 }
 
 /// The pieces of the law for the present memory of the membrane.
 template <typename L, typename C>
-const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
+constexpr const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>) {
     if (!state.started) lay_out(params, state);
     return state.pieces;
@@ -82,7 +82,8 @@ const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) n
 ///
 /// The tip has left when it is outside without a force. On a wall of thickness 0 it can rest on the surface under load.
 template <typename L, typename C, typename Scalar>
-void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q, const Scalar& force) noexcept {
+constexpr void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scalar& q,
+                        const Scalar& force) noexcept {
   bool changed = advance_memory(params.law, state.law, q, time_step<L>(params.coupling));
   if constexpr (HearsLeaving<L>)
     if (!(q > 0) && force == 0) changed |= params.law.leave(state.law);
@@ -97,8 +98,8 @@ void remember(const LineParams<L, C>& params, LineState<L, C>& state, const Scal
 
 /// Ends a tick: moves the proxy, from the friction force.
 template <typename L, typename C, typename Scalar>
-void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Scalar p_prev, Scalar f_star,
-            const Friction<Scalar>& friction) noexcept {
+constexpr void settle(const LineParams<L, C>& params, LineState<L, C>& state, Scalar p, Scalar p_prev, Scalar f_star,
+                      const Friction<Scalar>& friction) noexcept {
   const Scalar e_prev = state.e;
   // K06 (25) and (26) combined. In this form, a proxy that sticks (f = f*) keeps its position to the last bit.
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (friction.force - f_star);

@@ -18,15 +18,16 @@ class Proxy1d {
   using State = LineState<L, C>;
   static_assert(std::is_trivially_copyable_v<State>);
 
-  Proxy1d(const L& law, const C& coupling, Solver solver = Solver::exact) noexcept
+  constexpr Proxy1d(const L& law, const C& coupling, Solver solver = Solver::exact) noexcept
       : params_{law, coupling}, solver_(solver) {
     reset();
   }
-  Proxy1d(const L& law, const BasicCoupling<Scalar>& coupling, Scalar period, Solver solver = Solver::exact) noexcept
+  constexpr Proxy1d(const L& law, const BasicCoupling<Scalar>& coupling, Scalar period,
+                    Solver solver = Solver::exact) noexcept
       : Proxy1d(law, C(coupling, period), solver) {}
 
   /// Clears the state: e = f = 0, and the next sample is the first one.
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     state_ = {};
     depth_ = {};
     band_ = {};
@@ -35,7 +36,7 @@ class Proxy1d {
   /// One tick. p: depth of the device, m. Returns f, the force on the device, N. K06 (33).
   ///
   /// If p is NaN or beyond 1000 km, it returns NaN and the state does not change.
-  Scalar step(Scalar p) noexcept {
+  constexpr Scalar step(Scalar p) noexcept {
     if (!is_place(p)) return std::numeric_limits<Scalar>::quiet_NaN();
     if (solver_ == Solver::paper) {
       const auto tick = Paper::step(params_, state_, p);
@@ -49,7 +50,7 @@ class Proxy1d {
 
   /// The complete state of the solver, to look at. To go back to a tick later, copy the whole proxy, or use
   /// save_state() and load_state(): they also keep what tick() has beside it.
-  const State& state() const noexcept { return state_; }
+  constexpr const State& state() const noexcept { return state_; }
 
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
@@ -61,21 +62,21 @@ class Proxy1d {
     parameters.choice(solver_, solver_);
   }
 
-  const Params& params() const noexcept { return params_; }
-  Solver solver() const noexcept { return solver_; }
+  constexpr const Params& params() const noexcept { return params_; }
+  constexpr Solver solver() const noexcept { return solver_; }
   /// The result of the last step. The band is computed here, because few callers read it.
-  LineTick<Scalar> tick() const noexcept { return {state_.f, position(), depth(), band(), state_.phase}; }
-  const L& law() const noexcept { return params_.law; }
-  Scalar force() const noexcept { return state_.f; }                ///< f(k), N, on the device
-  Scalar offset() const noexcept { return state_.e; }               ///< e(k) = q(k) - p(k), m
-  Scalar position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
-  Phase phase() const noexcept { return state_.phase; }
+  constexpr LineTick<Scalar> tick() const noexcept { return {state_.f, position(), depth(), band(), state_.phase}; }
+  constexpr const L& law() const noexcept { return params_.law; }
+  constexpr Scalar force() const noexcept { return state_.f; }                ///< f(k), N, on the device
+  constexpr Scalar offset() const noexcept { return state_.e; }               ///< e(k) = q(k) - p(k), m
+  constexpr Scalar position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
+  constexpr Phase phase() const noexcept { return state_.phase; }
   /// The depth of the band, m: q(k); with Solver::paper q*(k).
-  Scalar depth() const noexcept { return solver_ == Solver::paper ? depth_ : position(); }
+  constexpr Scalar depth() const noexcept { return solver_ == Solver::paper ? depth_ : position(); }
 
  private:
   /// The band at depth(), N; 0 before the first step.
-  Band<Scalar> band() const noexcept {
+  constexpr Band<Scalar> band() const noexcept {
     if (!state_.started) return {};
     if constexpr (LawWithMemory<L>)
       return solver_ == Solver::paper ? band_ : state_.pieces.band(depth());

@@ -24,17 +24,17 @@ class Proxy3d {
   static_assert(std::is_trivially_copyable_v<State>);
 
   /// point: a, any point of the surface, m. inward_normal: n, of length 1. period: T, s.
-  Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const C& coupling,
-          Solver solver = Solver::exact) noexcept
+  constexpr Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const C& coupling,
+                    Solver solver = Solver::exact) noexcept
       : params_{law, point, inward_normal, coupling}, solver_(solver) {
     reset();
   }
-  Proxy3d(const L& law, const Vector& point, const Vector& inward_normal, const BasicCoupling<Scalar>& coupling,
-          Scalar period, Solver solver = Solver::exact) noexcept
+  constexpr Proxy3d(const L& law, const Vector& point, const Vector& inward_normal,
+                    const BasicCoupling<Scalar>& coupling, Scalar period, Solver solver = Solver::exact) noexcept
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
 
   /// Clears the state. A proxy that starts inside stays barred until it has been outside, in front.
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     state_ = {};
     keep({});
   }
@@ -43,13 +43,13 @@ class Proxy3d {
   /// K06 (41).
   ///
   /// If p is NaN or beyond 1000 km, or axis is not finite, it returns NaN and the state does not change.
-  Vector step(const Vector& p, const Vector& axis) noexcept {
+  constexpr Vector step(const Vector& p, const Vector& axis) noexcept {
     if (!is_place(p) || !axis.allFinite()) return Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     return step_finite(p, axis);
   }
   /// Whether another proxy is at the same membrane.
   template <typename OtherLaw, typename OtherCoupling>
-  bool same_place(const Proxy3d<OtherLaw, OtherCoupling>& other) const noexcept {
+  constexpr bool same_place(const Proxy3d<OtherLaw, OtherCoupling>& other) const noexcept {
     return params_.a == other.params().a && params_.n == other.params().n;
   }
   /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
@@ -57,7 +57,7 @@ class Proxy3d {
   /// Memory of the same type is kept. Otherwise the branches of the coupling begin without force, and a law with memory
   /// begins with an untouched wall. A needle that is inside has cut up to its present depth.
   template <typename OtherLaw, typename OtherCoupling>
-  void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
+  constexpr void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
     const auto& old = previous.state();
     keep(previous.tick());
     state_ = {old.started, old.phase, old.p, old.e, old.f, old.b, old.cos_beta};
@@ -77,7 +77,7 @@ class Proxy3d {
 
   /// The complete state of the solver, to look at. To go back to a tick later, copy the whole proxy, or use
   /// save_state() and load_state(): they also keep what tick() has beside it.
-  const State& state() const noexcept { return state_; }
+  constexpr const State& state() const noexcept { return state_; }
   static void archive(auto& self, auto& state) {
     State::archive(self.state_, state);
     state.numbers(self.axial_force_, self.depth_, self.band_.lower, self.band_.upper);
@@ -89,28 +89,28 @@ class Proxy3d {
     parameters.choice(solver_, solver_);
   }
 
-  const Params& params() const noexcept { return params_; }
-  Solver solver() const noexcept { return solver_; }
+  constexpr const Params& params() const noexcept { return params_; }
+  constexpr Solver solver() const noexcept { return solver_; }
   /// The result of the last step.
-  SpaceTick<Scalar> tick() const noexcept {
+  constexpr SpaceTick<Scalar> tick() const noexcept {
     return {state_.f, position(), state_.b, axial_force_, depth_, band_, state_.phase};
   }
-  const L& law() const noexcept { return params_.law; }
-  const Vector& force() const noexcept { return state_.f; }         ///< f(k), N
-  const Vector& offset() const noexcept { return state_.e; }        ///< e(k) = q(k) - p(k), m
-  Vector position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
-  const Vector& direction() const noexcept { return state_.b; }     ///< b, constant from entry on
-  Scalar axial_force() const noexcept { return axial_force_; }      ///< b.f(k), N
-  Phase phase() const noexcept { return state_.phase; }
-  const Band<Scalar>& band() const noexcept { return band_; }  ///< the band of the axial force, N
-  Scalar depth() const noexcept { return depth_; }             ///< m, see SpaceTick
+  constexpr const L& law() const noexcept { return params_.law; }
+  constexpr const Vector& force() const noexcept { return state_.f; }         ///< f(k), N
+  constexpr const Vector& offset() const noexcept { return state_.e; }        ///< e(k) = q(k) - p(k), m
+  constexpr Vector position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
+  constexpr const Vector& direction() const noexcept { return state_.b; }     ///< b, constant from entry on
+  constexpr Scalar axial_force() const noexcept { return axial_force_; }      ///< b.f(k), N
+  constexpr Phase phase() const noexcept { return state_.phase; }
+  constexpr const Band<Scalar>& band() const noexcept { return band_; }  ///< the band of the axial force, N
+  constexpr Scalar depth() const noexcept { return depth_; }             ///< m, see SpaceTick
 
  private:
   template <typename, typename>
   friend class ConditionedProxies;  // it checks p and axis once for all membranes
 
   /// step() without the check of p and axis.
-  const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
+  constexpr const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
     if (solver_ == Solver::paper)
       keep(Paper::step(params_, state_, p, axis));
     else
@@ -118,7 +118,7 @@ class Proxy3d {
     return state_.f;
   }
   /// Stores what tick() cannot read from the state.
-  void keep(const SpaceTick<Scalar>& tick) noexcept {
+  constexpr void keep(const SpaceTick<Scalar>& tick) noexcept {
     axial_force_ = tick.axial_force;
     depth_ = tick.depth;
     band_ = tick.band;

@@ -65,8 +65,8 @@ class RelaxingCoupling {
   Scalar inv_g;  ///< m/N
 
   /// branches: at most max_branches are used. Their time constants must be greater than 0.
-  RelaxingCoupling(const BasicCoupling<Scalar>& coupling, std::span<const BasicMaxwellBranch<Scalar>> branches,
-                   Scalar period) noexcept
+  constexpr RelaxingCoupling(const BasicCoupling<Scalar>& coupling,
+                             std::span<const BasicMaxwellBranch<Scalar>> branches, Scalar period) noexcept
       : g(0), inv_g(0), spring_(coupling, period) {
     using namespace lane;
     Scalar sum = 0;
@@ -80,19 +80,19 @@ class RelaxingCoupling {
     inv_g = count_ == 0 ? spring_.inv_g : 1 / g;
     free_share_ = count_ == 0 ? spring_.B_over_D : (spring_.B / spring_.T + sum) / g;
   }
-  RelaxingCoupling(const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
+  constexpr RelaxingCoupling(const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
       : RelaxingCoupling(coupling, {}, period) {}
   /// For lanes: each lane has the constants of a coupling for one number.
-  explicit RelaxingCoupling(const Constants& c) noexcept
+  constexpr explicit RelaxingCoupling(const Constants& c) noexcept
       : g(c.g),
         inv_g(c.inv_g),
         spring_({c.K, Scalar(0)}, Scalar(1)),
         branches_(c.branches),
         count_(c.count),
         free_share_(c.free_share) {}
-  Constants constants() const noexcept { return {spring_.K, g, inv_g, free_share_, branches_, count_}; }
+  constexpr Constants constants() const noexcept { return {spring_.K, g, inv_g, free_share_, branches_, count_}; }
 
-  Scalar period() const noexcept { return spring_.period(); }  ///< s
+  constexpr Scalar period() const noexcept { return spring_.period(); }  ///< s
   void describe(auto& parameters) const {
     spring_.describe(parameters);
     for (const Branch& branch : branches_) parameters.numbers(branch.a, branch.k);
@@ -100,8 +100,8 @@ class RelaxingCoupling {
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38), and what is left of the branches' forces.
   template <typename Vector>
-  Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
-                       const Memory<Vector>& memory) const noexcept {
+  constexpr Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
+                                 const Memory<Vector>& memory) const noexcept {
     Vector f = -g * (p - p_prev) + spring_.K * e_prev;
     for (std::size_t i = 0; i < count_; ++i) f = f + branches_[i].a * memory.force[i];
     return f;
@@ -109,7 +109,7 @@ class RelaxingCoupling {
 
   /// e after a tick without force, m. K06 (25) with f = 0.
   template <typename Vector>
-  Vector free_offset(const Vector& e_prev, const Memory<Vector>& memory) const noexcept {
+  constexpr Vector free_offset(const Vector& e_prev, const Memory<Vector>& memory) const noexcept {
     Vector e = free_share_ * e_prev;
     for (std::size_t i = 0; i < count_; ++i) e = e - inv_g * (branches_[i].a * memory.force[i]);
     return e;
@@ -117,18 +117,18 @@ class RelaxingCoupling {
 
   /// Ends a tick: the branches' new forces.
   template <typename Vector>
-  void advance(Memory<Vector>& memory, const Vector& e, const Vector& e_prev) const noexcept {
+  constexpr void advance(Memory<Vector>& memory, const Vector& e, const Vector& e_prev) const noexcept {
     for (std::size_t i = 0; i < count_; ++i)
       memory.force[i] = without_denormals(Vector(branches_[i].a * memory.force[i] + branches_[i].k * (e - e_prev)));
   }
 
   /// Sets the forces of branches that this coupling does not have to 0, after memory was taken from another coupling.
   template <typename Vector>
-  void clear_unused(Memory<Vector>& memory) const noexcept {
+  constexpr void clear_unused(Memory<Vector>& memory) const noexcept {
     for (std::size_t i = count_; i < max_branches; ++i) memory.force[i] = {};
   }
 
-  std::size_t branches() const noexcept { return count_; }  ///< the number of branches with a stiffness
+  constexpr std::size_t branches() const noexcept { return count_; }  ///< the number of branches with a stiffness
 
  private:
   SampledCoupling<Scalar> spring_;

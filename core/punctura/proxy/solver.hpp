@@ -36,18 +36,18 @@ struct Phases {
   V number{};
 
   Phases() = default;
-  explicit Phases(const V& numbers) noexcept : number(numbers) {}
-  Phases(Phase phase) noexcept : number(static_cast<Lane<V>>(phase)) {}
+  constexpr explicit Phases(const V& numbers) noexcept : number(numbers) {}
+  constexpr Phases(Phase phase) noexcept : number(static_cast<Lane<V>>(phase)) {}
 
   auto operator==(Phase phase) const noexcept { return number == Phases(phase).number; }
 };
 
 template <typename V>
-auto inside(const Phases<V>& phase) noexcept {
+constexpr auto inside(const Phases<V>& phase) noexcept {
   return !(phase == Phase::outside) && !(phase == Phase::barred);
 }
 template <typename M, Lanes V>
-Phases<V> select(const M& mask, const Phases<V>& a, const Phases<V>& b) noexcept {
+constexpr Phases<V> select(const M& mask, const Phases<V>& a, const Phases<V>& b) noexcept {
   return Phases<V>(select(mask, a.number, b.number));
 }
 

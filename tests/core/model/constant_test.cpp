@@ -1,0 +1,75 @@
+// K06's numbers while the program is compiled: a tick needs nothing but arithmetic.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "punctura/model/thick_law.hpp"
+#include "punctura/model/thin_law.hpp"
+#include "punctura/proxy/proxy_1d.hpp"
+#include "punctura/proxy/proxy_3d.hpp"
+
+using namespace punctura;
+
+namespace {
+
+constexpr Needle needle{1.08e-3, 0.28};
+constexpr Membrane thin{570, 0.41, 0.2, 0}, thick{570, 0.41, 0.2, 1e-4};
+constexpr Coupling coupling{400, 1};
+constexpr double period = 1 / 1600.0;
+
+constexpr bool near(double a, double b) { return a - b < 1e-13 && b - a < 1e-13; }
+
+// Along the normal: the tip's largest force, and the friction of the shaft.
+constexpr BasicThinLaw<double> thin_law(needle, thin);
+constexpr BasicThickLaw<double> thick_law(needle, thick);
+static_assert(near(thin_law.constants().F, 0.41024));
+static_assert(near(thin_law.band(1).lower, -0.41024) && near(thin_law.band(1).upper, 0.41024));
+static_assert(near(thin_law.band(thin_law.constants().X).lower, -0.73566799041232689));
+static_assert(near(thick_law.band(thick_law.constants().X).lower, -0.7297894621175145));
+static_assert(thin_law.band(-1e-9).lower == 0 && thick_law.band(0).upper == 0);
+
+/// The forces of a stroke in and out, on a line and in space (N).
+constexpr int ticks = 40;
+struct Forces {
+  std::array<double, ticks> line{}, space{};
+};
+constexpr Forces forces(const ThickLaw& law, const Coupling& c, Solver solver) {
+  Proxy1d<ThickLaw> line(law, c, period, solver);
+  Proxy3d<ThickLaw> space(law, {0, 1e-3, 0}, {0.6, -0.8, 0}, c, period, solver);
+  Forces f;
+  for (int k = 0; k < ticks; ++k) {
+    const double depth = -1e-3 + 5e-4 * (k < 24 ? k : 47 - k);
+    f.line[k] = line.step(depth);
+    f.space[k] = space.step({0, 1e-3 - depth, 1e-4}, {0, -1, 0}).norm();
+  }
+  return f;
+}
+constexpr Forces paper = forces(thick_law, coupling, Solver::paper), exact = forces(thick_law, coupling, Solver::exact);
+
+}  // namespace
+
+TEST_CASE("both solvers give the same bits while the program is compiled and while it runs") {
+  volatile double stiffness = coupling.stiffness;  // the compiler does not know it
+  const Coupling now{stiffness, coupling.damping};
+  const Forces paper_now = forces(thick_law, now, Solver::paper), exact_now = forces(thick_law, now, Solver::exact);
+  CHECK(paper_now.line == paper.line);
+  CHECK(paper_now.space == paper.space);
+  CHECK(exact_now.line == exact.line);
+  CHECK(exact_now.space == exact.space);
+}
+
+TEST_CASE("the square root of a constant is that of the processor") {
+  static_assert(lane::sqrt(0.0) == 0 && lane::sqrt(2.0f) == 1.41421356f && !lane::finite(lane::sqrt(-1.0)));
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const auto x = std::bit_cast<double>(random() >> 1);  // any exponent, denormal numbers, infinity and NaN
+    const double mine = detail::constant_sqrt(x), root = std::sqrt(x);
+    CHECK((mine == root || (std::isnan(mine) && std::isnan(root))));
+  }
+  for (const double x : {0x1p-1074, 0x1.fffffffffffffp1023, 0x1.fffffffffffffp0, 0x1.ffffffffffffep1, 4.0})
+    CHECK(detail::constant_sqrt(x) == std::sqrt(x));
+}
