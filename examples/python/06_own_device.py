@@ -59,5 +59,5 @@ try:
 finally:
     driver.over.set()
     driver.join()
-print(f"{summary.ticks} ticks, {summary.late} late, strongest force {summary.strongest_N:.3f} N {summary.fault}")
+print(f"{summary.ticks} ticks, {summary.late} late, strongest force {summary.felt_peak_N:.3f} N {summary.fault}")
 print(*summary.statements, sep="\n")

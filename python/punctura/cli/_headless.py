@@ -198,15 +198,15 @@ def in_words(summary: RunSummary) -> str:
     """The summary for a person."""
     lines = [
         f"{summary.scene} on {summary.device}",
-        f"  {summary.ticks} ticks at {summary.rate_Hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
+        f"  {summary.ticks} ticks at {summary.rate_hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
         f"99.9 % were computed within {summary.compute_p99_9_s * 1e6:.3g} us",
-        f"  strongest {felt_force(summary.force_scale)} {summary.strongest_N:.3g} N, "
-        f"strongest {MODEL_FORCE} {summary.strongest_model_N:.3g} N, "
+        f"  strongest {felt_force(summary.force_scale)} {summary.felt_peak_N:.3g} N, "
+        f"strongest {MODEL_FORCE} {summary.peak_N:.3g} N, "
         + (f"cut by {summary.limits_in_words}" if summary.limited_ticks else "never cut by a limit"),
     ]
     if summary.second_device:
         lines.append(
-            f"  thumb on {summary.second_device}: strongest felt force {summary.strongest_thumb_N:.3g} N, "
+            f"  thumb on {summary.second_device}: strongest felt force {summary.thumb_peak_N:.3g} N, "
             f"{summary.injected_m3 * 1e6:.2f} mL injected at most"
         )
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):

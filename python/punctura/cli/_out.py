@@ -8,6 +8,8 @@ from pathlib import Path
 
 import typer
 
+from punctura.files.target import target_problems
+
 
 def check_apart(files: Mapping[str, Path | None]) -> None:
     """Says before a long computation that one file would overwrite another one. Raises BadParameter."""
@@ -22,14 +24,8 @@ def check_apart(files: Mapping[str, Path | None]) -> None:
 
 def check_place(path: Path | None, option: str) -> None:
     """Says before a long computation that a file cannot be written there. Raises BadParameter."""
-    if path is None:
-        return
-    if path.is_dir():
-        raise typer.BadParameter(f"{path} is a folder; name a file", param_hint=option)
-    if not path.parent.is_dir():
-        raise typer.BadParameter(f"{path}: there is no folder {path.parent}; make it first", param_hint=option)
-    if not os.access(path.parent, os.W_OK):
-        raise typer.BadParameter(f"{path}: the folder may not be written; choose another", param_hint=option)
+    for problem in target_problems(path) if path else ():
+        raise typer.BadParameter(f"{path}: {problem}", param_hint=option)
 
 
 def check_folder(path: Path | None, option: str) -> None:

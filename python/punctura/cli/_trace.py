@@ -6,7 +6,7 @@ import math
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -23,8 +23,13 @@ Column = Annotated[
 Unit = Annotated[
     list[str] | None, typer.Option("--unit", help="A unit: depth=mm, force=mN, time=ms.", metavar="ROLE=UNIT")
 ]
-Order = Annotated[str, typer.Option("--order", help="recorded, or depth for a digitised curve of one insertion.")]
-Point = Annotated[str | None, typer.Option("--decimal", help="point or comma, where a file can be read in two ways.")]
+Order = Annotated[
+    Literal["recorded", "depth"], typer.Option("--order", help="depth: a digitised curve of one insertion.")
+]
+Point = Annotated[
+    Literal["point", "comma"] | None,
+    typer.Option("--decimal", help="The decimal mark, where a file can be read in two ways."),
+]
 Encoding = Annotated[
     str | None, typer.Option("--encoding", help="Of a text file: gbk, shift_jis, utf-16, ...", metavar="NAME")
 ]
@@ -44,18 +49,20 @@ DepthFile = Annotated[
 
 
 def reading_of(
-    column: list[str] | None, unit: list[str] | None, order: str, decimal: str | None, encoding: str | None,
-    sheet: str | None, speed: str | None, depth_file: Path | None,
-) -> Reading:  # fmt: skip
+    column: list[str] | None,
+    unit: list[str] | None,
+    order: Literal["recorded", "depth"],
+    decimal: Literal["point", "comma"] | None,
+    encoding: str | None,
+    sheet: str | None,
+    speed: str | None,
+    depth_file: Path | None,
+) -> Reading:
     """What the options say about a file. Raises typer.BadParameter."""
     from punctura.trace.reading import Reading
 
-    if order not in ("recorded", "depth"):
-        raise typer.BadParameter("must be recorded or depth", param_hint="--order")
-    if decimal not in (None, "point", "comma"):
-        raise typer.BadParameter("must be point or comma", param_hint="--decimal")
     return Reading(
-        pairs(column, "--column", empty=True), pairs(unit, "--unit"), "depth" if order == "depth" else "recorded",
+        pairs(column, "--column", empty=True), pairs(unit, "--unit"), order,
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
         _speeds(speed), None if depth_file is None else str(depth_file),
     )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -89,11 +89,12 @@ def score(
 
 @command.command()
 def export(
-    format: Annotated[str, typer.Option("--format", help="csv, or xapi: one statement a line.", metavar="csv|xapi")],
+    format: Annotated[Literal["csv", "xapi"], typer.Option("--format", help="xapi: one statement a line.")],
     person: Annotated[str | None, typer.Option(help="Only the results of this person.")] = None,
     group: Annotated[str | None, typer.Option("--class", help="Only the results of this class.")] = None,
     results: Annotated[
-        Path | None, typer.Option(help="Folder of the results. Default: that of the studio.", metavar="FOLDER")
+        Path | None,
+        typer.Option(help="Folder of the results. Default: that of the studio.", exists=True, file_okay=False),
     ] = None,
     home_page: Annotated[
         str | None, typer.Option(help="For xapi: address of the system that knows the persons.", metavar="URL")
@@ -106,8 +107,6 @@ def export(
     from punctura.exercise.xapi import HOME, to_xapi
     from punctura.files.whole_file import write_whole
 
-    if format not in ("csv", "xapi"):
-        raise typer.BadParameter(f"must be csv or xapi, not {format}", param_hint="--format")
     if home_page is not None and not home_page.startswith(("http://", "https://")):
         raise typer.BadParameter("must begin with http:// or https://", param_hint="--home-page")
     if home_page is not None and format == "csv":
@@ -115,8 +114,6 @@ def export(
     special = out is not None and out.exists() and not out.is_file() and not out.is_dir()  # such as /dev/stdout
     check_place(None if special else out, "--out")
     folder = results or default_folder()
-    if results is not None and not folder.is_dir():
-        raise typer.BadParameter(f"there is no folder {folder}", param_hint="--results")
     unread: list[ResultsError] = []
     found = ResultStore(folder).all(person, group, unread)[::-1]
     for error in unread:

@@ -62,8 +62,9 @@ def command(
         Path | None,
         typer.Option("--out", help="Folder for the results of a folder, or of all sheets of a file.", metavar="FOLDER"),
     ] = None,
-    processes: Annotated[
-        int | None, typer.Option("--processes", help="For a folder; default: all processors.", min=0)
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", min=1, help="For a folder: number of processes. Default: one for each processor."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
@@ -90,7 +91,7 @@ def command(
         if not folder:
             write_specimens(trace, stated, out / "specimens")
             trace, task = out / "specimens", replace(task, reading=replace(stated, sheet=None))
-        _folder(trace, out, task, processes, as_json)
+        _folder(trace, out, task, workers, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}
     for option, path in written.items():
@@ -107,11 +108,11 @@ def command(
         _plan(plan, found)
 
 
-def _folder(folder: Path, out: Path, task: Task, processes: int | None, as_json: bool) -> None:
+def _folder(folder: Path, out: Path, task: Task, workers: int | None, as_json: bool) -> None:
     from punctura.identify.folder import identify_folder
 
     with progress_bar("identify") as tell:
-        told = identify_folder(folder, out, task, processes, tell)
+        told = identify_folder(folder, out, task, workers, tell)
     if as_json:
         typer.echo(json.dumps(told, indent=2))
     else:

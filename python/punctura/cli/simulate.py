@@ -52,9 +52,9 @@ def _rivals(given: str) -> list[Rival]:
 
 def _in_words(summary: SimulationSummary) -> str:
     lines = [
-        f"{summary.out}: {summary.rows_out} ticks at {summary.servo_rate_hz:g} Hz, "
-        f"{summary.start_s:.6g} s to {summary.end_s:.6g} s, strongest force {summary.strongest_N:.4g} N"
+        f"{summary.out}: {summary.rows_out} ticks at {summary.rate_hz:g} Hz, "
+        f"{summary.start_s:.6g} s to {summary.end_s:.6g} s, strongest force {summary.peak_N:.4g} N"
     ]
     for membrane in summary.membranes:
-        lines.append(f"  {membrane.name}: {membrane.deepest_m * 1e3:.4g} mm deep, {membrane.strongest_N:.4g} N")
+        lines.append(f"  {membrane.name}: {membrane.deepest_m * 1e3:.4g} mm deep, {membrane.peak_N:.4g} N")
     return "\n".join(lines)

@@ -59,7 +59,7 @@ def identify_folder(
     folder: str | os.PathLike[str],
     out: str | os.PathLike[str],
     task: Task,
-    processes: int | None = None,
+    workers: int | None = None,
     progress: Callable[[float], None] = lambda _: None,
 ) -> FolderRecord:
     """Identifies all traces of `folder` and writes `out`: a JSON file a trace, traces.parquet, population.parquet.
@@ -82,7 +82,7 @@ def identify_folder(
             results[path.name] = known
     kept = len(results)
     missing = [path for path in paths if path.name not in results]
-    for done, (path, result, again) in enumerate(_computed(missing, task, processes), 1):
+    for done, (path, result, again) in enumerate(_computed(missing, task, workers), 1):
         results[path.name] = result
         if not again:
             write_whole(_result_file(out, path), json.dumps(result, indent=1).encode())
@@ -98,13 +98,13 @@ def _result_file(out: Path, path: Path) -> Path:
     return out / f"{path.name}.json"
 
 
-def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Iterator[tuple[Path, TraceRecord, bool]]:
+def _computed(paths: Sequence[Path], task: Task, workers: int | None) -> Iterator[tuple[Path, TraceRecord, bool]]:
     """Each path with its result, as they come, and whether the next run shall try it again.
 
     A trace whose process dies has failed; the others do not die with it.
     """
     left = list(paths)
-    with _pool(processes or os.cpu_count()) as pool:
+    with _pool(workers or os.cpu_count()) as pool:
         with _ctrl_c_later():
             running = {pool.submit(_one, str(path), task): path for path in left}
         for future in as_completed(running):
@@ -120,12 +120,12 @@ def _computed(paths: Sequence[Path], task: Task, processes: int | None) -> Itera
 
 
 @contextmanager
-def _pool(processes: int | None) -> Iterator[ProcessPoolExecutor]:
+def _pool(workers: int | None) -> Iterator[ProcessPoolExecutor]:
     """Processes that leave Ctrl-C to this one. After an error they end at once: a trace may take minutes."""
     # "spawn": a forked copy of a program with threads may hang.
     context = multiprocessing.get_context("spawn")
     closed, stop = context.Pipe(duplex=False)
-    with closed, stop, ProcessPoolExecutor(processes, context, _follow_parent, (closed,)) as pool:
+    with closed, stop, ProcessPoolExecutor(workers, context, _follow_parent, (closed,)) as pool:
         try:
             yield pool
         except BaseException:

@@ -31,18 +31,18 @@ class RunSummary:
 
     scene: str
     device: str
-    rate_Hz: float
+    rate_hz: float
     membranes: list[str]
     ticks: int = 0
     gaps: int = 0  # ticks whose snapshot never came
     force_scale: float = 1.0  # how much of the model's force the device gives, before the limits
-    strongest_N: float = 0.0  # of the felt force
-    strongest_model_N: float = 0.0
+    felt_peak_N: float = 0.0  # of the felt force
+    peak_N: float = 0.0
     deepest_m: list[float] = field(default_factory=list)
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
     limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names in CUTS
     second_device: str = ""  # empty without one
-    strongest_thumb_N: float = 0.0  # felt force of the thumb on the second device
+    thumb_peak_N: float = 0.0  # felt force of the thumb on the second device
     injected_m3: float = 0.0  # the most that had left the scene's syringe
     fault: str = ""
     late: int = 0
@@ -74,11 +74,11 @@ class RunSummary:
         self.ticks += n
         self.gaps = int(tick[-1]) + 1 - self.ticks
         self.force_scale = float(ticks.force_scale[-1])
-        self.strongest_N = max(self.strongest_N, strongest(ticks.force, ticks.ceiling))
-        self.strongest_model_N = max(self.strongest_model_N, float(np.linalg.norm(ticks.model_force, axis=1).max()))
+        self.felt_peak_N = max(self.felt_peak_N, strongest(ticks.force, ticks.ceiling))
+        self.peak_N = max(self.peak_N, float(np.linalg.norm(ticks.model_force, axis=1).max()))
         deepest = ticks.depth.max(axis=0)
         self.deepest_m = [max(a, float(b)) for a, b in zip(self.deepest_m, deepest, strict=False)]
-        self.strongest_thumb_N = max(self.strongest_thumb_N, float(np.abs(ticks.thumb_felt).max()))
+        self.thumb_peak_N = max(self.thumb_peak_N, float(np.abs(ticks.thumb_felt).max()))
         self.thumb_N = float(ticks.thumb_felt[-1])
         self.injected_m3 = max(self.injected_m3, float(np.fmax.reduce(ticks.injected, initial=0.0)))
         self.limited_by = {name: int(ticks[f"{name}_limited"][-1]) for name in CUTS}
@@ -123,5 +123,5 @@ class RunSummary:
     @property
     def limits_in_words(self) -> str:
         """The limits that cut the force, and for how long: "the long-run limit for 1.2 s"; empty if none did."""
-        acted = [(LIMIT_WORDS[name], ticks / self.rate_Hz) for name, ticks in self.limited_by.items() if ticks]
+        acted = [(LIMIT_WORDS[name], ticks / self.rate_hz) for name, ticks in self.limited_by.items() if ticks]
         return ", ".join(f"the {words} for {seconds:.3g} s" for words, seconds in acted)

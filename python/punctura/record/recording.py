@@ -14,7 +14,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from punctura.record.description import FaultAt, Summary
-from punctura.record.errors import RecordingError
+from punctura.record.errors import MissingRecordingError, RecordingError
 from punctura.record.finish import finished_path, part_path
 from punctura.record.header import RecordingInfo
 from punctura.record.parquet_file import ParquetRecording
@@ -109,7 +109,7 @@ def open_recording(path: str | os.PathLike[str]) -> Recording:
             raise RecordingError(f"{file} is not a recording of Punctura, or its beginning is damaged")
         return Recording(file, ParquetRecording(file) if finished else PartFile(file))
     except FileNotFoundError:
-        raise RecordingError(f"{file}: there is no such file") from None
+        raise MissingRecordingError(f"{file}: there is no such file") from None
     except IsADirectoryError:
         raise RecordingError(f"{file} is a folder, not a recording") from None
     except OSError as bad:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
+from punctura.files.target import same_file, target_problems
 from punctura.progress import Tell
 from punctura.scene import scene_text
 from punctura.simulation.depth_note import depth_note
@@ -41,7 +42,7 @@ def simulate_file(
 
     motion = MotionTable(source) if source.suffix.lower() in TABLES else MotionFile(source)
     even = _survey(motion, tell)
-    summary = SimulationSummary(name, str(source), str(target), servo_rate_hz=scene.servo.rate)
+    summary = SimulationSummary(name, str(source), str(target), rate_hz=scene.servo.rate)
     summary.rows_in = even.count
     summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
     resampler = _resampler(even, scene, summary)
@@ -70,17 +71,11 @@ class _Part(NamedTuple):
 
 
 def _check_target(source: Path, target: Path) -> None:
-    problems = []
+    problems = [Problem(f"out {target}", MISSING, reason) for reason in target_problems(target, SUFFIXES)]
     if not source.is_file():
         reason = "is not a file" if source.exists() else "there is no such file"
-        problems.append(Problem(f"motion {source}", MISSING, reason))
-    if target.suffix.lower() not in SUFFIXES:
-        problems.append(Problem(f"out {target}", MISSING, f"must end in {' or '.join(SUFFIXES)}"))
-    if target.is_dir():
-        problems.append(Problem(f"out {target}", MISSING, "is a folder"))
-    elif not target.parent.is_dir():
-        problems.append(Problem(f"out {target}", MISSING, f"there is no folder {target.parent}"))
-    elif source.exists() and target.exists() and source.samefile(target):
+        problems.insert(0, Problem(f"motion {source}", MISSING, reason))
+    elif same_file(source, target):
         problems.append(Problem(f"out {target}", MISSING, "is the motion file itself; choose another name"))
     if problems:
         raise ConfigurationError(problems)
@@ -140,7 +135,7 @@ def _add(summary: SimulationSummary, part: _Part, trace: Ticks) -> None:
         summary.start_s = float(part.time[0])
     summary.rows_out += len(part.time)
     summary.end_s = float(part.time[-1])
-    summary.strongest_N = max(summary.strongest_N, float(np.linalg.norm(trace.force, axis=1).max()))
+    summary.peak_N = max(summary.peak_N, float(np.linalg.norm(trace.force, axis=1).max()))
     for i, membrane in enumerate(summary.membranes):
         membrane.deepest_m = max(membrane.deepest_m, float(trace.depth[:, i].max()))
-        membrane.strongest_N = max(membrane.strongest_N, float(np.abs(trace.axial_force[:, i]).max()))
+        membrane.peak_N = max(membrane.peak_N, float(np.abs(trace.axial_force[:, i]).max()))

@@ -11,7 +11,7 @@ class MembraneSummary:
 
     name: str
     deepest_m: float = 0.0
-    strongest_N: float = 0.0
+    peak_N: float = 0.0
 
 
 @dataclass
@@ -24,11 +24,11 @@ class SimulationSummary:
     rows_in: int = 0
     rows_out: int = 0
     motion_rate_hz: float | None = None  # None for a motion of one sample
-    servo_rate_hz: float = 0.0
+    rate_hz: float = 0.0
     resampled: bool = False
     start_s: float = 0.0
     end_s: float = 0.0
-    strongest_N: float = 0.0
+    peak_N: float = 0.0
     membranes: list[MembraneSummary] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     elapsed_s: float = 0.0

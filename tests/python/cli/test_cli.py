@@ -74,8 +74,8 @@ def test_each_verb_is_a_file_and_tells_how_it_is_used(punctura):
     [
         (["scenes"], DONE),
         (["run", "--headless", "--device", "none-such", "k06-fig10"], CALLED_WRONGLY),
-        (["replay", "no-such-file.parquet"], FAILED),
-        (["export", "no-such-file.parquet", "--out", "x.csv"], FAILED),
+        (["replay", __file__], FAILED),
+        (["export", "no-such-file.parquet", "--out", "x.csv"], CALLED_WRONGLY),
         (["place", "--device", "none-such"], CALLED_WRONGLY),
         (["no-such-verb"], CALLED_WRONGLY),
         (["simulate", "k06-fig10"], CALLED_WRONGLY),
@@ -190,10 +190,23 @@ def test_missing_files_and_a_wrong_ending_are_called_wrongly(punctura, here):
     )
 
 
-@pytest.mark.parametrize("verb", [["identify", "--needle", "diameter_mm=1,tip_angle_deg=20"], ["compare"]])
-def test_a_missing_trace_is_named_and_is_a_usage_error(punctura, verb, here):
-    done = punctura(*verb, "none.csv")
-    assert done.status == 2 and "none.csv" in done.stderr and "Errno" not in done.stderr
+READS_A_FILE = {
+    "compare": [],
+    "exercise score": ["--exercise", "epidural"],
+    "export": ["--out", "o.csv"],
+    "export-fmu": ["--out", "o.fmu"],
+    "identify": ["--needle", "diameter_mm=1,tip_angle_deg=20"],
+    "place": [],
+    "replay": [],
+    "run": ["--headless"],
+    "study": [],
+}
+
+
+@pytest.mark.parametrize("verb", READS_A_FILE)
+def test_a_missing_file_is_named_and_is_a_usage_error(punctura, verb, here):
+    done = punctura(*verb.split(), *READS_A_FILE[verb], "none.toml")
+    assert done.status == 2 and "none.toml" in done.stderr and "Errno" not in done.stderr
 
 
 def test_missing_options_are_a_usage_error(punctura):

@@ -97,7 +97,7 @@ def test_the_terminal_tells_the_scale_wherever_it_tells_a_force():
     run_to_end(loop)
     summary = RunSummary.of(loop.scene, "simulated", 1600)
     summary.add(listener.read())
-    assert summary.strongest_N <= 0.3 * summary.strongest_model_N * (1 + 1e-12)
-    assert f"strongest felt force (x 0.30) {summary.strongest_N:.3g} N, strongest model force " in in_words(summary)
+    assert summary.felt_peak_N <= 0.3 * summary.peak_N * (1 + 1e-12)
+    assert f"strongest felt force (x 0.30) {summary.felt_peak_N:.3g} N, strongest model force " in in_words(summary)
     assert "felt force (x 0.30) +" in status_text(summary)
     assert felt_force(1) == "felt force" and felt_force(0.0664) == "felt force (x 0.066)"

@@ -126,7 +126,7 @@ def test_the_command_line_bounds_the_force(punctura, tmp_path):
         done = punctura(*run, *more)
         assert done.status == 0, done.stderr
         said = json.loads(done.stdout)
-        said_strongest[name] = said["strongest_N"]
+        said_strongest[name] = said["felt_peak_N"]
         assert said["limited_ticks"] > 0
     assert said_strongest == {"file": 0.6, "option": 0.4}
     assert ", at most 0.4 N, 0.88 N rms in any 10 s; " in done.stderr
@@ -230,4 +230,4 @@ def test_a_run_keeps_to_a_file_of_limits(tmp_path):
     strokes = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
     device = SimulatedDevice(strokes, real_time=False, ticks=4000)
     summary = run_live(device, SCENE, gate=limits.gate_on(device), limits=limits.force)
-    assert summary.strongest_N == pytest.approx(0.5, rel=1e-9)
+    assert summary.felt_peak_N == pytest.approx(0.5, rel=1e-9)

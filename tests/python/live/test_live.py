@@ -27,7 +27,7 @@ def simulated(ticks=4000, **kw):
 def test_a_run_ends_with_the_device_and_its_summary_counts_every_tick():
     summary = run_live(simulated(), SCENE)
     assert (summary.ticks, summary.gaps, summary.fault) == (4000, 0, "")
-    assert summary.strongest_N == pytest.approx(0.73, abs=0.01)
+    assert summary.felt_peak_N == pytest.approx(0.73, abs=0.01)
     assert summary.deepest_m[0] > 5e-3
     assert summary.state == "active"
 
@@ -50,7 +50,7 @@ def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
 
 def test_a_limit_that_acts_is_counted_and_reported():
     summary = run_live(simulated(), SCENE, limits=ForceLimits(max_force=0.5))
-    assert summary.strongest_N == pytest.approx(0.5)
+    assert summary.felt_peak_N == pytest.approx(0.5)
     assert summary.limited_ticks == summary.limited_by["peak"] > 100
     assert summary.limits_in_words.startswith("the peak limit for ")
 
@@ -79,7 +79,7 @@ def test_a_new_run_goes_on_with_what_the_motors_have_given():
 
 def test_a_dead_man_button_that_nobody_holds_gives_no_force():
     summary = run_live(simulated(), SCENE, gate=GateLimits(dead_man=1))
-    assert (summary.strongest_N, summary.state) == (0.0, "waiting")
+    assert (summary.felt_peak_N, summary.state) == (0.0, "waiting")
 
 
 def test_a_fault_ends_the_run_and_says_what_to_do():

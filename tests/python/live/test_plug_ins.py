@@ -62,7 +62,7 @@ def test_the_package_of_the_docs_is_listed_and_runs(of_the_docs):
     assert listed[0] == {"backend": "mine", "state": "available", "detail": "", "devices": ["mine 1"]}
     assert {"simulated", "replay", "haply"} < {entry["backend"] for entry in listed}
     said = summary_of_mine(of_the_docs, seconds="2")
-    assert "mine" in said["device"] and said["ticks"] > 50 and said["strongest_N"] > 0.1
+    assert "mine" in said["device"] and said["ticks"] > 50 and said["felt_peak_N"] > 0.1
 
 
 AT_THE_END = """

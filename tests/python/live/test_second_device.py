@@ -167,7 +167,7 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
-    assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["strongest_thumb_N"] > 0
+    assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["thumb_peak_N"] > 0
     recording = open_recording(path)
     assert recording.info.said.second_device.device.backend == "simulated"
     assert recording.info.said.second_device.limits["max_force"] == 3.3

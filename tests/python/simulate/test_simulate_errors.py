@@ -232,7 +232,7 @@ def test_paths_that_cannot_serve_are_told_all_at_once(tmp_path):
     assert problems_of("k06-fig10", none, out) == [
         f"motion {none}: there is no such file",
         f"out {out}: must end in .csv or .parquet",
-        f"out {out}: there is no folder {out.parent}",
+        f"out {out}: there is no folder {out.parent}; make it first",
     ]
     assert problems_of("k06-fig10", tmp_path, tmp_path / "out.csv") == [f"motion {tmp_path}: is not a file"]
 

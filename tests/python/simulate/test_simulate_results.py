@@ -107,8 +107,8 @@ def test_the_summary_tells_depth_and_strongest_force(write, tmp_path):
     (membrane,) = summary.membranes
     assert membrane.name == "thin membrane"
     assert membrane.deepest_m == result["depth_0_m"].max()
-    assert membrane.strongest_N == np.abs(result["force_0_N"]).max()
-    assert summary.strongest_N == pytest.approx(np.hypot(result["fx_N"], result["fy_N"]).max())
+    assert membrane.peak_N == np.abs(result["force_0_N"]).max()
+    assert summary.peak_N == pytest.approx(np.hypot(result["fx_N"], result["fy_N"]).max())
     assert (summary.start_s, summary.end_s) == (0.0, time[-1])
     assert summary.motion_rate_hz == pytest.approx(1600)
 
