@@ -9,7 +9,7 @@ seconds=${1:-600}
 mkdir -p build/fuzz/c_abi
 
 calls=$(for i in $(seq 400); do printf '\\x%02x' $((i * i * 37 % 251)); done)
-for scene in python/punctura/scenes/*.toml; do
+for scene in python/punctura/ready_scenes/*.toml; do
   { printf '\0'; cat "$scene"; printf "\0$calls"; } >"build/fuzz/c_abi/$(basename "$scene" .toml)"
 done
 lines=''

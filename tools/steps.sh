@@ -176,7 +176,7 @@ consumer_installed() {
   local prefix=$root/build/consumer/prefix built=$root/build/consumer/from-runtime
   cmake --install build/dev --prefix "$prefix/runtime" &&
     use_it from-runtime -DCMAKE_PREFIX_PATH="$prefix/runtime" -DWITH_RUNTIME=ON -DWITH_C=ON &&
-    "$built/own_device" && "$built/devices" && "$built/insert" python/punctura/scenes/k06-fig12.toml &&
+    "$built/own_device" && "$built/devices" && "$built/insert" python/punctura/ready_scenes/k06-fig12.toml &&
     use_it from-wheel -Dpunctura_DIR="$(punctura paths --cmake)"
 }
 consumer_in_tree() {

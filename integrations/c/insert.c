@@ -1,6 +1,6 @@
 /* Pushes a needle through the first membrane of a scene and prints the force.
  *
- *   insert SCENE.toml        a scene file, for example python/punctura/scenes/k06-fig12.toml
+ *   insert SCENE.toml        a scene file, for example python/punctura/ready_scenes/k06-fig12.toml
  */
 #include <punctura.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@ rm -rf "$work" && mkdir -p "$work"
 dpkg-deb -x "$work"/*.deb "$work/root"
 dpkg-deb -I "$work"/*.deb | grep -E '^ (Package|Version|Depends)'
 libdir=$(dirname "$(find "$work/root" -name 'libpunctura.so')")
-scene=$root/python/punctura/scenes/k06-fig12.toml
+scene=$root/python/punctura/ready_scenes/k06-fig12.toml
 
 PKG_CONFIG_PATH=$libdir/pkgconfig
 export PKG_CONFIG_PATH

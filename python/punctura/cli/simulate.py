@@ -27,7 +27,7 @@ def command(
     out: Annotated[Path, typer.Option("--out", help="Result file to write.", metavar="OUT.csv|.parquet")],
     rival: Annotated[
         str | None,
-        typer.Option("--rival", help="A rival's name or a file of punctura compare --out.", metavar="NAME|FILE"),
+        typer.Option("--rival", help="A rival's name or a file of punctura rivals --out.", metavar="NAME|FILE"),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:

@@ -14,7 +14,7 @@ from punctura.exercise.exercise import Exercise
 from punctura.files.toml import Tables, decoded, parse_toml, read_tables
 from punctura.scene import load_scene, scene_names
 
-_FOLDER = Path(__file__).parents[1] / "exercises"
+_FOLDER = Path(__file__).parents[1] / "ready_exercises"
 _A_SCENE = "is a scene file, not an exercise file: an exercise has a [space] and [[goal]] tables, and names its scene"
 
 

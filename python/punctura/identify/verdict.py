@@ -50,7 +50,7 @@ def _drifting(fit: Fit) -> Iterator[str]:
     if slow > DRIFTING * other and slow > SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "
-            "interval of a surface is then too narrow. If the model is right (see punctura compare), this is a drift "
+            "interval of a surface is then too narrow. If the model is right (see punctura rivals), this is a drift "
             "of the sensor: let it warm up, record a second before contact, and repeat the insertion."
         )
 

@@ -42,7 +42,7 @@ class ModelRecord(TypedDict):
 
 
 class ComparisonRecord(TypedDict):
-    """The JSON of `punctura compare --json`."""
+    """The JSON of `punctura rivals --json`."""
 
     trace: str
     samples: int

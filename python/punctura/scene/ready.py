@@ -13,7 +13,7 @@ from punctura.scene.build import build_scene
 from punctura.scene.check import check_tables
 from punctura.scene.unusual import UnusualWarning, unusual_numbers
 
-_FOLDER = Path(__file__).parents[1] / "scenes"
+_FOLDER = Path(__file__).parents[1] / "ready_scenes"
 
 
 def scene_names() -> list[str]:

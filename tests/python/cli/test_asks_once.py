@@ -32,8 +32,8 @@ def test_a_needle_alone_is_asked_for_with_the_whole_command_too(tmp_path):
     told, text = asked(file, "--scene", tmp_path / "b.toml")
     assert told.exit_code and text.startswith("--needle is missing")
     assert text.endswith(f"{file} --scene {tmp_path / 'b.toml'} --needle diameter_mm=D,tip_angle_deg=A")
-    told = CliRunner().invoke(build_app("compare"), ["compare", str(file), "--unit", "force=stone"])
-    assert "punctura compare" in f"{told.exception}" and f"{told.exception}".endswith("--unit force=UNIT")
+    told = CliRunner().invoke(build_app("rivals"), ["rivals", str(file), "--unit", "force=stone"])
+    assert "punctura rivals" in f"{told.exception}" and f"{told.exception}".endswith("--unit force=UNIT")
 
 
 def test_speeds_are_stated_as_a_list_with_times():

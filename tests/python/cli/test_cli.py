@@ -191,7 +191,7 @@ def test_missing_files_and_a_wrong_ending_are_called_wrongly(punctura, here):
 
 
 READS_A_FILE = {
-    "compare": [],
+    "rivals": [],
     "exercise score": ["--exercise", "epidural"],
     "export": ["--out", "o.csv"],
     "export-fmu": ["--out", "o.fmu"],

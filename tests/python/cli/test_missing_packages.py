@@ -44,7 +44,7 @@ print(np.linalg.norm(alone.force, axis=1).max())
 NOTHING: tuple[str, str] = ("", "")
 FILES, IDENTIFY = ("pyarrow", "files"), ("pyarrow", "identify")
 CALLS = {
-    "compare any.csv": IDENTIFY,
+    "rivals any.csv": IDENTIFY,
     "devices": NOTHING,
     "exercise list": NOTHING,
     "exercise score any.parquet --exercise venipuncture": FILES,

@@ -146,7 +146,7 @@ def test_the_command_line_compares_and_feels(punctura, tmp_path):
     np.savetxt(csv, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="")
     out = tmp_path / "fits"
     models = ["--models", "exponential,dahl", "--json", "--plot", tmp_path / "plot.svg"]
-    told = json.loads(punctura("compare", csv, *models, "--out", out).stdout)
+    told = json.loads(punctura("rivals", csv, *models, "--out", out).stdout)
     assert [model["name"] for model in told["models"]] == ["exponential", "dahl"]
     assert told["models"][0]["rmse_N"] == pytest.approx(NOISE, rel=0.15)
     drawing = (tmp_path / "plot.svg").read_text()

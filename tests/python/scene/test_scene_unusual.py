@@ -56,7 +56,7 @@ def test_the_warning_names_the_line_and_what_to_write(tmp_path, sound_text, soun
 )
 def test_the_numbers_of_a_syringe_are_told_as_well(tmp_path, sound, given, advice):
     path = tmp_path / "epidural.toml"
-    text = (Path(punctura.__file__).parent / "scenes" / "epidural.toml").read_text()
+    text = (Path(punctura.__file__).parent / "ready_scenes/epidural.toml").read_text()
     assert sound in text
     path.write_text(text.replace(sound, given, 1))
     [said] = told(path)

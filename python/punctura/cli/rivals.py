@@ -1,4 +1,4 @@
-"""`punctura compare`: force models of other authors fitted to a measured trace, beside each other."""
+"""`punctura rivals`: force models of other authors fitted to a measured trace, beside each other."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def command(
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]
-    with progress_bar("compare") as tell:
+    with progress_bar("rivals") as tell:
         found = compare_trace(
             read, names, needle=_trace.needle_of(needle) if needle else recorded_needle(trace), with_chatter=chatter,
             progress=tell,

@@ -1,4 +1,4 @@
-"""`punctura compare` before its fits: the needle of a recording, and outputs that cannot be written."""
+"""`punctura rivals` before its fits: the needle of a recording, and outputs that cannot be written."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def text(folder):
 def test_the_needle_of_a_recording_is_taken_unless_another_one_is_stated(punctura, needles, tmp_path):
     run, other = push(tmp_path), text(tmp_path)
     for arguments in ([run], [run, "--needle", "diameter_mm=1,tip_angle_rad=0.5"], [other]):
-        assert "the fits would begin now" in punctura("compare", *arguments).stderr
+        assert "the fits would begin now" in punctura("rivals", *arguments).stderr
     assert needles == [pn.Needle(1.7e-3, 0.31), pn.Needle(1e-3, 0.5), None]
 
 
@@ -57,7 +57,7 @@ def test_the_needle_of_a_recording_is_taken_unless_another_one_is_stated(punctur
 )
 def test_an_output_that_cannot_be_written_is_told_before_the_fits(punctura, needles, tmp_path, option, place, words):
     (tmp_path / "folder.png").mkdir()
-    done = punctura("compare", text(tmp_path), option, tmp_path / place)
+    done = punctura("rivals", text(tmp_path), option, tmp_path / place)
     assert done.status == 2 and words in " ".join(done.stderr.replace("│", " ").split()) and needles == []
 
 
