@@ -190,7 +190,8 @@ def _known(result: Path, path: Path, task: Task) -> TraceRecord | None:
         told = json.loads(result.read_bytes())
     except (OSError, ValueError, RecursionError):
         return None
-    if not (isinstance(told, dict) and told.get("task") == task.key() and told.get("stamp") == _stamp(path)):
+    wanted = json.loads(json.dumps({"task": task.key(), "stamp": _stamp(path)}))  # JSON has no tuples
+    if not isinstance(told, dict) or wanted != {key: told.get(key) for key in wanted}:
         return None
     known: TraceRecord = told  # type: ignore[assignment]  # the same version of punctura wrote it
     return known
