@@ -162,7 +162,7 @@ def read_or_ask(path: Path, reading: Reading, context: typer.Context, text: str 
 def _command_with(context: typer.Context, options: Sequence[str]) -> str:
     """This command with more options, in place of those that state the same."""
     words = ["punctura", str(context.info_name)]
-    replaced = {option.split("=")[0] for option in options}
+    replaced = {option.split("=")[0] if "=" in option else option.split()[0] for option in options}
     for parameter in context.command.params:
         value = context.params.get(str(parameter.name))
         if parameter.param_type_name == "argument":

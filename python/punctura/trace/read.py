@@ -110,9 +110,13 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
         count = int((~good).sum())
-        text = f"{count} of {len(good)} rows hold no number in a column, the first is row {int(np.argmin(good)) + 1}"
+        lacking = " or ".join(role for role, column in held.items() if not np.isfinite(column).all())
+        text = (
+            f"{count} of {len(good)} rows hold no number for the {lacking}, the first is row {int(np.argmin(good)) + 1}"
+        )
         severe = 10 * count > len(good)
-        found.append(Finding("rows_without_numbers", f"{text}; they are left out", True, severe))
+        remedy = "these are too many to leave out; mend or delete them in the file" if severe else "they are left out"
+        found.append(Finding("rows_without_numbers", f"{text}; {remedy}", not severe, severe))
     if good.sum() < 5:
         raise TraceError(
             f"{source}: a trace needs at least 5 rows with numbers in all columns, and here are {int(good.sum())}"

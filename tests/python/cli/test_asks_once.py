@@ -32,6 +32,9 @@ def test_a_needle_alone_is_asked_for_with_the_whole_command_too(tmp_path):
     told, text = asked(file, "--scene", tmp_path / "b.toml")
     assert told.exit_code and text.startswith("--needle is missing")
     assert text.endswith(f"{file} --scene {tmp_path / 'b.toml'} --needle diameter_mm=D,tip_angle_deg=A")
+    told, text = asked(file, "--unit", "force=mN", "--column", "depth=x", "--order", "depth")
+    stated = "--unit force=mN --order depth --needle diameter_mm=D,tip_angle_deg=A --column depth=NAME"
+    assert "there is no column 'x' for the depth" in text and text.endswith(stated)
     told = CliRunner().invoke(build_app("rivals"), ["rivals", str(file), "--unit", "force=stone"])
     assert "punctura rivals" in f"{told.exception}" and f"{told.exception}".endswith("--unit force=UNIT")
 
