@@ -147,10 +147,12 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
   toml::table rest = file;
   rest.erase("membrane");
   reader.table(rest, "", "");
-  for (const auto& [key, node] : rest)
+  for (const auto& [key, node] : rest) {
+    const std::string_view name = key.str();
     if (node.is_table() && std::none_of(std::begin(scene_tables), std::end(scene_tables),
-                                        [&](const SceneTable& known) { return known.name == key.str(); }))
-      reader.problem(is_plain_text(key.str()) ? std::string(key.str()) : "a table", "scene files have no such table");
+                                        [&](const SceneTable& known) { return known.name == name; }))
+      reader.problem(is_plain_text(name) ? std::string(name) : "a table", "scene files have no such table");
+  }
   for (const SceneTable& known : scene_tables)
     if (known.name != "" && known.name != "membrane")
       if (const auto* table = table_at(file, known.name, known.required, reader))
