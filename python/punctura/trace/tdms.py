@@ -45,5 +45,5 @@ def _table(path: Path, group: Any) -> Table:
                 values, unit = (values - values[0]) / np.timedelta64(1, "s"), "s"
             columns[with_unit(channel.name, unit)] = np.asarray(values, np.float64)
             if step := float(channel.properties.get("wf_increment", 0.0)):
-                columns.setdefault("time [s]", step * np.arange(rows))
+                columns.setdefault("time [s]", step * np.arange(rows, dtype=np.float64))
     return Table(dict(zip(unique(columns), columns.values(), strict=True)))
