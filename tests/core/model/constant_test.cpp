@@ -33,7 +33,7 @@ static_assert(near(thick_law.band(thick_law.constants().X).lower, -0.72978946211
 static_assert(thin_law.band(-1e-9).lower == 0 && thick_law.band(0).upper == 0);
 
 /// The forces of a stroke in and out, on a line and in space (N).
-constexpr int ticks = 40;
+constexpr std::size_t ticks = 40;
 struct Forces {
   std::array<double, ticks> line{}, space{};
 };
@@ -41,8 +41,8 @@ constexpr Forces forces(const ThickLaw& law, const Coupling& c, Solver solver) {
   Proxy1d<ThickLaw> line(law, c, period, solver);
   Proxy3d<ThickLaw> space(law, {0, 1e-3, 0}, {0.6, -0.8, 0}, c, period, solver);
   Forces f;
-  for (int k = 0; k < ticks; ++k) {
-    const double depth = -1e-3 + 5e-4 * (k < 24 ? k : 47 - k);
+  for (std::size_t k = 0; k < ticks; ++k) {
+    const double depth = -1e-3 + 5e-4 * static_cast<double>(k < 24 ? k : 47 - k);
     f.line[k] = line.step(depth);
     f.space[k] = space.step({0, 1e-3 - depth, 1e-4}, {0, -1, 0}).norm();
   }
