@@ -6,8 +6,9 @@
 
 #include "bindings.hpp"
 #include "input_columns.hpp"
-#include "punctura/scene/build.hpp"
+#include "model_of.hpp"
 #include "state.hpp"
+#include "tick_columns.hpp"
 #include "ticks.hpp"
 
 namespace punctura::bindings {
@@ -32,9 +33,9 @@ std::string compiler() {
 /// A servo step that gets the recorded inputs in the order of the original loop.
 class Replay : public OneThread {
  public:
-  Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent)
-      : rate_(scene.servo.rate), gate_(gate), limits_(limits), step_(built(scene)) {
-    step_->set_spent(spent);
+  Replay(const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent, StepMaker model)
+      : rate_(scene.servo.rate), gate_(gate), limits_(limits), model_(std::move(model)), step_(built(scene)) {
+    step_->guard().set_spent(spent);
   }
 
   nb::object run(const nb::object& ticks, const std::vector<std::vector<Scene>>& scenes) {
@@ -48,7 +49,7 @@ class Replay : public OneThread {
     if (asked != scenes.size()) throw std::invalid_argument("there must be scenes for every tick that took one");
 
     SnapshotColumns columns;
-    columns.reserve(given.rows(), step_->snapshot().membrane_count);
+    columns.reserve(given.rows(), step_->guard().snapshot().membrane_count);
     auto taken = scenes.begin();
     const Running running(*this);
     make_ticks(given.rows(), [&](std::size_t k) {
@@ -56,8 +57,8 @@ class Replay : public OneThread {
       if (now.commands & command_scene)
         for (const Scene& scene : *taken++) take(scene);
       if (now.commands & command_reset) step_->reset();
-      if (now.commands & command_arm) step_->arm();
-      if (now.commands & command_disarm) step_->disarm();
+      if (now.commands & command_arm) step_->guard().arm();
+      if (now.commands & command_disarm) step_->guard().disarm();
       columns.add(step_->step(now.sample));
     });
     return columns.to_ticks();
@@ -66,9 +67,9 @@ class Replay : public OneThread {
   double rate() const noexcept { return rate_; }
 
  private:
-  std::unique_ptr<ServoStep> built(Scene scene) const {
+  std::unique_ptr<AnyStep> built(Scene scene) const {
     scene.servo.rate = rate_;  // the device's rate, as in the loop
-    return std::make_unique<ServoStep>(build(scene, gate_, limits_));
+    return model_(scene, gate_, limits_);
   }
   void take(const Scene& scene) {
     auto next = built(scene);
@@ -79,7 +80,8 @@ class Replay : public OneThread {
   double rate_;
   GateLimits gate_;
   ForceLimits limits_;
-  std::unique_ptr<ServoStep> step_;
+  StepMaker model_;
+  std::unique_ptr<AnyStep> step_;
 };
 
 }  // namespace
@@ -92,13 +94,12 @@ void bind_replay(nb::module_& m) {
   replay
       .def(
           "__init__",
-          [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent) {
-            raise_if(check(scene));
-            new (self) Replay(scene, gate, limits, spent);
-          },
-          nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0,
+          [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent,
+             const std::vector<AnyRival>& rivals) { new (self) Replay(scene, gate, limits, spent, model_of(rivals)); },
+          nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0, nb::kw_only(),
+          nb::arg("rivals") = std::vector<AnyRival>(),
           "Starts in the state of a loop before its first tick. scene: at the device's rate. spent: motor load\n"
-          "before the run, N^2 s.")
+          "before the run, N^2 s. rivals: of the loop.")
       .def_prop_ro("rate", &Replay::rate, "Hz")
       .def("run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
            nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),

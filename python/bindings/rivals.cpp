@@ -137,21 +137,17 @@ nb::list kinds() {
   return all;
 }
 
-std::vector<AnyRival> one_for_each(const Scene& scene, std::vector<AnyRival> rivals) {
-  raise_if(check(scene));
-  const std::size_t n = scene.membranes.size();
-  if (rivals.size() == 1) rivals.resize(n, rivals.front());
-  if (rivals.size() != n)
-    throw nb::value_error(("rivals must have one entry, or one for each of the " + std::to_string(n) +
-                           " membranes of the scene, not " + std::to_string(rivals.size()))
-                              .c_str());
-  return rivals;
+RivalInsertion built(const Scene& scene, const std::vector<AnyRival>& rivals) {
+  std::vector<Problem> problems;
+  auto made = try_build_rivals(scene, rivals, problems);
+  raise_if(problems);
+  return std::move(*made);
 }
 
 /// A scene with rivals that keeps its arguments.
 struct SceneRivals : OneThread {
   SceneRivals(const Scene& given, const std::vector<AnyRival>& given_rivals)
-      : scene(given), rivals(one_for_each(given, given_rivals)), insertion(scene, rivals) {}
+      : scene(given), rivals(given_rivals), insertion(built(scene, rivals)) {}
   Scene scene;
   std::vector<AnyRival> rivals;
   RivalInsertion insertion;
@@ -188,9 +184,9 @@ nb::object run(SceneRivals& self, const nb::object& positions, const nb::object&
 
 using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
-nb::object experiment(const Scene& scene, const std::vector<AnyRival>& given, const AnyMotion& motion, double duration,
+nb::object experiment(const Scene& scene, const std::vector<AnyRival>& rivals, const AnyMotion& motion, double duration,
                       const DeviceDynamics& plant, const Hand& hand, std::uint64_t seed, const nb::object& progress) {
-  const std::vector<AnyRival> rivals = one_for_each(scene, given);
+  built(scene, rivals);  // raises all problems
   if (!(duration >= 0 && duration <= 1e9)) throw nb::value_error("duration must be from 0 to 1e9 s");
   const auto n = static_cast<std::size_t>(std::llround(duration * scene.servo.rate));
   const Vector3d axis = unit(scene.membranes.front().inward_normal, "axis");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bindings.hpp"
+#include "model_of.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/motor_rest.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
@@ -76,6 +77,18 @@ nb::object as_ticks(const std::vector<Snapshot>& snapshots) {
 
 void bind_runtime(nb::module_& m) {
   nb::exception<DeviceError>(m, "DeviceError", nb::make_tuple(m.attr("PuncturaError"), nb::borrow(PyExc_RuntimeError)));
+
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const SceneError& error) {
+      try {
+        raise_if(error.problems());
+      } catch (nb::python_error& raised) {
+        raised.restore();
+      }
+    }
+  });
 
   auto device = nb::class_<Device>(m, "Device", "An open haptic device. It makes the ticks on its own thread.");
   def_repr(device, "<{0.__class__.__name__} {0.info.model!r} at {0.info.rate:g} Hz>");
@@ -169,8 +182,10 @@ void bind_runtime(nb::module_& m) {
   loop.def(
           "__init__",
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
-             const ForceLimits& limits, const Placement& placement, std::shared_ptr<ThumbLoop> thumb) {
+             const ForceLimits& limits, const Placement& placement, std::shared_ptr<ThumbLoop> thumb,
+             const std::vector<AnyRival>& rivals) {
             LoopSettings settings;
+            settings.model = model_of(rivals);
             settings.thumb = std::move(thumb);
             settings.gate = gate;
             settings.limits = limits;
@@ -178,9 +193,11 @@ void bind_runtime(nb::module_& m) {
             new (self) ServoLoop(std::move(device), scene, settings);
           },
           nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},
-          nb::arg("placement") = Placement{}, nb::arg("thumb") = nb::none(),
+          nb::arg("placement") = Placement{}, nb::arg("thumb") = nb::none(), nb::kw_only(),
+          nb::arg("rivals") = std::vector<AnyRival>(),
           "A device can be in one running loop at a time. The period is the device's own. Its force ratings tighten\n"
-          "the limits. thumb: a second device, which holds the plunger of the scene's syringe.")
+          "the limits. thumb: a second device, which holds the plunger of the scene's syringe. rivals: force models\n"
+          "of other authors in place of the scene's law, one, or one for each membrane. Raises ConfigurationError.")
       .def(
           "start",
           [](ServoLoop& loop, std::optional<double> duration) {
@@ -216,7 +233,6 @@ void bind_runtime(nb::module_& m) {
       .def(
           "exchange",
           [](ServoLoop& loop, const Scene& scene) {
-            raise_if(check(scene));
             const WithoutLock release;
             loop.exchange(scene);
           },
@@ -246,6 +262,9 @@ void bind_runtime(nb::module_& m) {
           "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks so far, in all runs")
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::copy_scene, "The running scene, at the device's rate.")
+      .def_prop_ro(
+          "rivals", [](const ServoLoop& loop) { return loop.model().rivals(); },
+          "The force models in place of the scene's law; empty if there are none.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
       .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,

@@ -8,14 +8,14 @@ import json
 import os
 import select
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import typer
 
-from punctura._core import Device, FedDevice, Placement, ServoLoop
+from punctura._core import Device, FedDevice, Placement, Rival, ServoLoop
 from punctura.cli._status import FAILED
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
@@ -55,6 +55,7 @@ class Wishes(NamedTuple):
     processor: int = ANY_PROCESSOR
     limits: Limits = Limits()
     second: SecondDevice | None = None
+    rivals: Sequence[Rival] = ()  # in place of the scene's law
 
 
 def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
@@ -92,7 +93,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
     try:
         summary = run_live(
             opened, fitted, wishes.duration, limits.gate_on(opened), limits.force, wishes.placement, tape.watch, begin,
-            thumb,
+            thumb, wishes.rivals,
         )  # fmt: skip
     except Ended as end:
         if end.summary is not None and end.summary.ticks > 0:

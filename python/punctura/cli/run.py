@@ -13,6 +13,7 @@ from punctura._core import DeviceError
 from punctura.cli._headless import USUAL_SCENE, Wishes, run_headless
 from punctura.cli._leave import leave
 from punctura.cli._out import check_place
+from punctura.cli._rivals import rivals_of
 from punctura.cli._streams import never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError
@@ -114,6 +115,15 @@ def command(
             metavar="FILE.toml",
         ),
     ] = None,
+    rival: Annotated[
+        str | None,
+        typer.Option(
+            "--rival",
+            help="With --headless: the force model of another author instead of the scene's law (docs/rivals.md); its "
+            "name, or a file of punctura rivals --out.",
+            metavar="NAME|FILE",
+        ),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option("--record", help="With --headless: record every tick to this file.", metavar="FILE.parquet"),
@@ -126,7 +136,12 @@ def command(
     The hand of the simulated device follows the mouse in the page; with --headless it makes strokes through the scene.
     """
     never_wait_for_stderr()
-    for wrong, name, instead in ((record, "--record", "; the page has a button for it"), (as_json, "--json", "")):
+    of_the_terminal = (
+        (record, "--record", "; the page has a button for it"),
+        (as_json, "--json", ""),
+        (rival, "--rival", "; the page draws the scene's law"),
+    )
+    for wrong, name, instead in of_the_terminal:
         if wrong and not headless:
             raise typer.BadParameter(f"needs --headless{instead}", param_hint=name)
     if record and record.suffix.lower() != ".parquet":
@@ -152,7 +167,8 @@ def command(
     second = SecondDevice(second_device) if second_device else None
     if second and second_direction is not None:
         second = second._replace(direction=_direction(second_direction))
-    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second)
+    rivals = rivals_of(rival) if rival else []
+    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second, rivals)
     with ends_on_signals() as signals:
         try:
             with signals.raised():

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from punctura._core import Rival
+from punctura.cli._rivals import rivals_of
 from punctura.progress import progress_bar
 from punctura.simulation import SimulationSummary, simulate
 
@@ -36,18 +36,10 @@ def command(
     With --rival, a force model of another author takes the place of the scene's law, at the places of its membranes.
     """
     with progress_bar("simulate") as tell:
-        summary = simulate(scene, motion, out, tell, rivals=None if rival is None else _rivals(rival))
+        summary = simulate(scene, motion, out, tell, rivals=None if rival is None else rivals_of(rival))
     for note in summary.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))
-
-
-def _rivals(given: str) -> list[Rival]:
-    from punctura.rivals import kinds, load_layers
-
-    if given in kinds() or not Path(given).exists():
-        return [Rival(given)]
-    return [layer.rival for layer in load_layers(given)]
 
 
 def _in_words(summary: SimulationSummary) -> str:

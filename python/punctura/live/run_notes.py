@@ -11,12 +11,29 @@ from punctura.device_words import room_note
 
 def run_notes(loop: ServoLoop) -> list[str]:
     """The notes on a run, told before it and in its summary."""
-    return [note for note in (damping_note(loop), room_note(loop)) if note]
+    return [note for note in (rival_note(loop), damping_note(loop), room_note(loop)) if note]
+
+
+def rival_note(loop: ServoLoop) -> str:
+    """Whose force it is; empty for the scene's own law."""
+    if not loop.rivals:
+        return ""
+    names = " and ".join(dict.fromkeys(rival.name for rival in loop.rivals))
+    note = f"the force is that of {names} (docs/rivals.md), not of the scene's law"
+    if math.isinf(loop.device.longest_silence[1]):  # nobody holds it
+        return note
+    return (
+        f"{note}. How much friction a device needs for it is not known: it can buzz or kick, also at rest in tissue. "
+        "Begin with --max-force-N 0.5"
+    )
 
 
 def damping_note(loop: ServoLoop) -> str:
-    """The friction that the device needs, because no device states its own; empty for a device that nobody holds."""
-    if math.isinf(loop.device.longest_silence[1]):  # nobody holds it
+    """The friction that the device needs, because no device states its own.
+
+    Empty for a device that nobody holds, and for rivals: the number is that of the coupling, which they do not have.
+    """
+    if loop.rivals or math.isinf(loop.device.longest_silence[1]):
         return ""
     needed, dry = loop.force_scale * needed_damping(loop.scene), Plant().friction
     return (

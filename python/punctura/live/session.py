@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from punctura import Scene
-from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, ServoLoop, ThumbLoop
+from punctura._core import Device, Fault, ForceLimits, GateLimits, Placement, Rival, ServoLoop, ThumbLoop
 from punctura.live.choose import gate_for
 from punctura.live.run_notes import run_notes
 from punctura.live.summary import RunSummary
@@ -26,6 +26,7 @@ def run_live(
     watch: Callable[[RunSummary], None] | None = None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None = None,
     thumb: ThumbLoop | None = None,
+    rivals: Sequence[Rival] = (),
 ) -> RunSummary:
     """Runs until `duration` (s) is over, a fault is latched, ticks cease, the device ends, or a signal comes.
 
@@ -35,14 +36,15 @@ def run_live(
 
     watch: called about 20 times a second with the summary; its `statements` begin with run_notes(). prepare: called
     with the loop before it starts, to add listeners; it returns a function that is called after the stop. thumb: a
-    second device, on the plunger of the scene's syringe; a fault of either device ends the run.
+    second device, on the plunger of the scene's syringe; a fault of either device ends the run. rivals: force models
+    of other authors in place of the scene's law, one, or one for each membrane.
     """
     info = device.info
     summary = RunSummary.of(scene, f"{info.backend}: {info.model}", info.rate)
     if thumb is not None:
         summary.second_device = f"{thumb.device.info.backend}: {thumb.device.info.model}"
     try:
-        _run(device, scene, summary, duration, gate, limits, placement, watch, prepare, thumb)
+        _run(device, scene, summary, duration, gate, limits, placement, watch, prepare, thumb, rivals)
     except Ended as end:
         end.summary = summary
         raise
@@ -60,10 +62,11 @@ def _run(
     watch: Callable[[RunSummary], None] | None,
     prepare: Callable[[ServoLoop], Callable[[], None]] | None,
     thumb: ThumbLoop | None,
+    rivals: Sequence[Rival],
 ) -> None:
     with ends_on_signals() as signals:
         force, stands = limits or ForceLimits(), placement or Placement()
-        loop = ServoLoop(device, scene, gate or gate_for(device), force, stands, thumb)
+        loop = ServoLoop(device, scene, gate or gate_for(device), force, stands, thumb, rivals=rivals)
         summary.statements = run_notes(loop)
         listener = loop.listen()
         watched = Watched(loop, thumb, duration)

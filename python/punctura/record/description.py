@@ -15,9 +15,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from punctura.record.errors import RecordingError
 from punctura.results import JsonObject
 
-# Formats that this version reads. It writes the last one. In format 1 the gate limited the distance between two
-# readings, and `spent_N2s` did not exist.
-FORMATS = (1, 2)
+# Formats that this version reads. In format 1 the gate limited the distance between two readings, and `spent_N2s` did
+# not exist. Only a run with rivals has format 3: a version that does not know them must not replay it with K06's law.
+FORMATS = (1, 2, 3)
 _MOST_NESTED = 64
 _MOST_TOLD = 5  # problems in one message
 
@@ -68,6 +68,13 @@ class SecondDevice(_Part):
     limits: dict[str, Value] = {}
 
 
+class RivalNumbers(_Part):
+    """A force model in place of the scene's law, with its numbers (SI)."""
+
+    rival: str
+    numbers: dict[str, Number]
+
+
 class FaultAt(_Part):
     """A fault and its tick: `fault.tick` or `fault["tick"]`."""
 
@@ -111,6 +118,7 @@ class Description(_Part):
     lost: dict[str, Count] = {}
     device_after: DeviceAfter = DeviceAfter()
     second_device: SecondDevice | None = None
+    rivals: list[RivalNumbers] = []
     replayed_from: str = ""
     replayed_by: str = ""
 
@@ -122,9 +130,9 @@ def read_description(text: bytes, path: Path) -> tuple[JsonObject, Description]:
     """
     data = _json(text, path)
     if data.get("format") not in FORMATS or isinstance(data["format"], bool):
-        known = " and ".join(str(number) for number in FORMATS)
+        known = ", ".join(str(number) for number in FORMATS)
         raise RecordingError(
-            f"{path} has format {_brief(data.get('format'))}; this version of Punctura reads format {known}. "
+            f"{path} has format {_brief(data.get('format'))}; this version of Punctura reads the formats {known}. "
             f"Use the version that wrote it: {_brief(data.get('build', 'unknown'))}"
         )
     try:

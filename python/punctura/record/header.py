@@ -14,7 +14,7 @@ from typing import TypeAlias, TypedDict, TypeVar
 import numpy as np
 import pyarrow as pa
 
-from punctura._core import Device, ForceLimits, GateLimits, Scene, ServoLoop, ThumbLoop
+from punctura._core import Device, ForceLimits, GateLimits, Rival, Scene, ServoLoop, ThumbLoop
 from punctura.device_words import statements_of, words_of
 from punctura.record.build_id import build_id, machine
 from punctura.record.description import FORMATS, Description, Value, read_description
@@ -26,7 +26,7 @@ from punctura.results import JsonObject
 T = TypeVar("T")
 Plain: TypeAlias = str | bool | int | float  # a value in a JSON file
 
-FORMAT = FORMATS[-1]
+FORMAT, FORMAT_WITH_RIVALS = FORMATS[-2:]
 KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
@@ -53,11 +53,19 @@ class SecondRecord(TypedDict):
     limits: dict[str, Plain]  # ForceLimits
 
 
+class RivalRecord(TypedDict):
+    """RivalNumbers, as written."""
+
+    rival: str
+    numbers: dict[str, float]
+
+
 class RunRecord(_Run, total=False):
     """The description as written when a recording begins. Description is the same, as read."""
 
     about: JsonObject
     second_device: SecondRecord
+    rivals: list[RivalRecord]
 
 
 class DeviceReport(TypedDict):
@@ -88,6 +96,9 @@ def describe_run(loop: ServoLoop, about: JsonObject | None = None, thumb: ThumbL
     }
     if about:
         described["about"] = about
+    if loop.rivals:
+        described["format"] = FORMAT_WITH_RIVALS
+        described["rivals"] = [{"rival": rival.name, "numbers": rival.numbers} for rival in loop.rivals]
     if thumb is not None:
         described["second_device"] = {"device": _fields(thumb.device.info), "limits": _fields(thumb.limits)}
     return described
@@ -140,6 +151,15 @@ class RecordingInfo:
     def spent(self) -> float:
         """Motor load at the start of the run, N^2 s. A replay needs it to limit the force as the run did."""
         return self.said.spent_N2s
+
+    @property
+    def rivals(self) -> list[Rival]:
+        """The force models in place of the scene's law; empty if there were none. Raises RecordingError."""
+        try:
+            return [Rival(one.rival, one.numbers) for one in self.said.rivals]
+        except ValueError as bad:
+            reason = " ".join(str(bad).split())
+        raise RecordingError(f"{self._path}: a rival in the run description is invalid: {reason}")
 
     @property
     def build(self) -> str:

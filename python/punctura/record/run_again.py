@@ -95,7 +95,7 @@ class _Replayer:
         self._path = recording.path
         self._result = result
         self._width = membranes_in(recording.schema)
-        self._step = Replay(info.scene, info.gate, info.limits, info.spent)
+        self._step = Replay(info.scene, info.gate, info.limits, info.spent, rivals=info.rivals)
 
     def run(self, batch: pa.RecordBatch) -> pa.RecordBatch | None:
         """Replays up to the first gap; None if there is nothing to replay."""

@@ -210,13 +210,23 @@ void ServoLoop::reset() noexcept {
   ask(reset_bit);
 }
 
+void ServoLoop::exchange(Scene scene) {
+  auto step = built(scene, settings_.model);
+  offer(std::move(step), std::move(scene));
+}
+
 void ServoLoop::exchange(Scene scene, StepMaker model) {
   auto step = built(scene, model);
+  settings_.model = std::move(model);
+  offer(std::move(step), std::move(scene));
+}
+
+/// The next tick takes this step of a scene.
+void ServoLoop::offer(std::unique_ptr<AnyStep> step, Scene scene) {
   scene.servo.rate = device_->info().rate;
   {
     const std::lock_guard lock(between_ticks_);
     scene_ = std::move(scene);
-    settings_.model = std::move(model);
     force_scale_ = step->guard().force_scale();
     handover_.offer(std::move(step));
     if (!running_) take();

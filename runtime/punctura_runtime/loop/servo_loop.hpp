@@ -56,9 +56,9 @@ void copy(const Snapshot& from, Snapshot& to) noexcept;
 /// durations to histograms of atomics.
 ///
 /// Threads: all calls are allowed from any thread at the same time, with these exceptions. listen() must come before
-/// start(), on the same thread. exchange() changes what scene() refers to: call them on one thread; copy_scene() can be
-/// called on any. stop() waits for a running start(), never for an exchange(). While the loop is destroyed, only
-/// stop_all() may be running.
+/// start(), on the same thread. exchange() changes what scene() and model() refer to: call them on one thread;
+/// copy_scene() can be called on any. stop() waits for a running start(), never for an exchange(). While the loop is
+/// destroyed, only stop_all() may be running.
 class ServoLoop {
  public:
   /// The period is the device's, not the scene's. The device's force ratings tighten the limits. Throws SceneError.
@@ -99,7 +99,7 @@ class ServoLoop {
 
   /// Changes the scene, also while running: builds it here; the next tick takes it and fades it in. Throws SceneError
   /// and then changes nothing. model: from now on; without it, the present one stays.
-  void exchange(Scene scene) { exchange(std::move(scene), settings_.model); }
+  void exchange(Scene scene);
   void exchange(Scene scene, StepMaker model);
 
   Device& device() noexcept { return *device_; }
@@ -129,6 +129,7 @@ class ServoLoop {
   double thumb_depth(const DeviceSample& sample) noexcept;
   void take() noexcept;
   void obey() noexcept;
+  void offer(std::unique_ptr<AnyStep> step, Scene scene);
   void remember(const Snapshot& snapshot) noexcept;
   void ask(std::uint32_t bit) noexcept { asked_.fetch_or(bit, std::memory_order_release); }
   std::unique_ptr<AnyStep> built(const Scene& scene, const StepMaker& model) const;

@@ -1,0 +1,127 @@
+"""Rivals on a device: felt, recorded and replayed."""
+
+import json
+
+import numpy as np
+import punctura as pn
+import pytest
+from punctura._core import ForceLimits, ServoLoop, SimulatedDevice
+from punctura.live.run_notes import run_notes
+from punctura.record import Recorder, RecordingError, open_recording, replay
+from punctura.record.header import RecordingInfo
+from punctura.rivals import Layer, Rival, RivalInsertion, save_layers
+from waiting import wait_until
+
+SCENE = pn.load_scene("k06-fig12")
+WALLS = len(SCENE.membranes)
+STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=3, duration=0.3, rest=0.3)
+
+
+def felt(path, rivals, scene=SCENE, ticks=4000, between=None):
+    """A recorded run on a simulated device without a clock. Returns its ticks."""
+    device = SimulatedDevice(STROKES, real_time=False, ticks=ticks)
+    loop = ServoLoop(device, scene, rivals=rivals)
+    listener = loop.listen(ticks)
+    with Recorder(loop, path, ticks) as recorder:
+        if between is not None:
+            recorder.exchange(between)
+        loop.arm()
+        loop.start()
+        wait_until(lambda: device.finished)
+        loop.stop()
+    return listener.read()
+
+
+@pytest.mark.parametrize("name", ["okamura", "kelvin_voigt", "dahl"])
+def test_a_loop_gives_the_rivals_force_and_a_replay_gives_it_again(tmp_path, name):
+    rival = Rival(name, {"friction_slope": 5.0})
+    ticks = felt(tmp_path / "run.parquet", [rival])
+    alone = RivalInsertion(SCENE, [rival]).run(ticks.position, ticks.axis)
+    assert np.array_equal(ticks.model_force, alone.force)
+    assert np.abs(ticks.force).max() > 0.05
+    recording = open_recording(tmp_path / "run.parquet")
+    assert recording.info.rivals == [rival]
+    assert recording.info.said.format == 3
+    result = replay(tmp_path / "run.parquet")
+    assert (result.ticks, result.identical, result.complete) == (4000, True, True)
+
+
+def test_a_new_scene_keeps_the_rival_and_is_replayed_with_it(tmp_path):
+    other = SCENE.with_values({"membrane[0].point[1]": -1e-3})
+    ticks = felt(tmp_path / "run.parquet", [Rival("dahl")], between=other)
+    assert np.array_equal(
+        ticks.model_force, RivalInsertion(other, [Rival("dahl")]).run(ticks.position, ticks.axis).force
+    )
+    assert replay(tmp_path / "run.parquet").identical
+
+
+def test_a_run_without_rivals_keeps_its_format(tmp_path):
+    felt(tmp_path / "run.parquet", [], ticks=10)
+    info = open_recording(tmp_path / "run.parquet").info
+    assert info.rivals == []
+    assert "rivals" not in info.data
+    assert info.said.format == 2
+
+
+def test_a_rival_that_this_version_does_not_know_is_told(tmp_path):
+    felt(tmp_path / "run.parquet", [Rival("dahl")], ticks=10)
+    info = open_recording(tmp_path / "run.parquet").info
+    for wrong in ({"rival": "newton", "numbers": {}}, {"rival": "dahl", "numbers": {"friction": -1.0}}):
+        said = type(info.said).model_validate(info.data | {"rivals": [wrong]})
+        with pytest.raises(RecordingError, match="rival in the run description is invalid"):
+            _ = RecordingInfo(info.data, said, tmp_path / "run.parquet").rivals
+
+
+def test_rivals_are_one_or_one_for_each_membrane():
+    device = SimulatedDevice(STROKES)
+    many = [Rival("dahl")] * (WALLS + 1)
+    with pytest.raises(pn.ConfigurationError, match=f"one for each of the {WALLS} membranes"):
+        ServoLoop(device, SCENE, rivals=many)
+    loop = ServoLoop(device, SCENE, rivals=[Rival("dahl")] * WALLS)
+    wider = pn.load_scene("venipuncture")
+    if len(wider.membranes) not in (1, WALLS):
+        with pytest.raises(pn.ConfigurationError, match="rivals"):
+            loop.exchange(wider)
+    assert loop.scene.membranes == SCENE.membranes
+
+
+def test_limits_and_the_automatic_scale_act_on_a_rival(tmp_path):
+    strong = Rival("dahl", {"friction": 20.0})
+    limited = felt(tmp_path / "a.parquet", [strong])
+    assert np.linalg.norm(limited.force, axis=1).max() <= ForceLimits().max_force + 1e-12
+    assert limited["peak_limited"][-1] + limited["continuous_limited"][-1] > 0
+    automatic = SCENE.replace(display=pn.DisplaySettings("automatic"))
+    scaled = felt(tmp_path / "b.parquet", [strong], automatic)
+    assert scaled.force_scale[0] < 0.1
+    assert replay(tmp_path / "b.parquet").identical
+
+
+def test_the_notes_name_the_rival():
+    notes = run_notes(ServoLoop(SimulatedDevice(STROKES), SCENE, rivals=[Rival("dahl")]))
+    assert any("the force is that of dahl" in note for note in notes)
+
+
+def test_the_command_runs_a_rival_by_name_and_from_a_file(punctura, tmp_path):
+    run = ["run", "k06-fig12", "--headless", "--device", "simulated", "--duration", "1", "--json"]
+    file, tape = tmp_path / "fit.json", tmp_path / "run.parquet"
+    save_layers(file, tuple(Layer(0.0, Rival("kelvin_voigt", {"stiffness": 300.0})) for _ in range(WALLS)))
+    done = punctura(*run, "--rival", file, "--record", tape)
+    assert done.status == 0, done.stderr
+    assert "the force is that of kelvin_voigt" in done.stderr
+    assert any("kelvin_voigt" in text for text in json.loads(done.stdout)["statements"])
+    assert open_recording(tape).info.rivals[0].numbers["stiffness"] == 300.0
+    assert punctura("replay", tape).status == 0
+    assert "the force is that of okamura" in punctura(*run[:-3], "--duration", "0.1", "--rival", "okamura").stderr
+
+
+@pytest.mark.parametrize(
+    ("wrong", "why"),
+    [
+        (["--headless", "--rival", "newton"], "must be one of"),
+        (["--rival", "dahl"], "needs --headless"),
+    ],
+)
+def test_a_wrong_rival_is_refused_before_the_run(punctura, wrong, why):
+    done = punctura("run", "k06-fig12", "--device", "simulated", *wrong)
+    assert done.status == 2
+    assert why in " ".join(done.stderr.replace("│", " ").split())
