@@ -114,20 +114,24 @@ class Rows {
 
 /// Laws that keep the arguments of their constructor.
 struct GivenThinLaw : ThinLaw {
+  using Law = ThinLaw;
   Needle needle;
   Membrane membrane;
 };
 struct GivenThickLaw : ThickLaw {
+  using Law = ThickLaw;
   Needle needle;
   Membrane membrane;
   double obliquity;
 };
 
 struct GivenProfileLaw : ProfileLaw {
+  using Law = ProfileLaw;
   std::vector<double> depth, lower, upper;
   double obliquity;
 };
 struct GivenTissueLaw : TissueLaw {
+  using Law = TissueLaw;
   Needle needle;
   Membrane membrane;
   Tissue tissue;

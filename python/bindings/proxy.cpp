@@ -21,6 +21,7 @@ void check_coupling(const Coupling& coupling, double period, std::vector<Problem
   check_period(period, problems);
 }
 
+/// The laws of a proxy on a line: the one list of them.
 using GivenLaw = std::variant<GivenThinLaw, GivenThickLaw, GivenProfileLaw, GivenTissueLaw>;
 
 /// One Python class for proxies with either law. It keeps its constructor arguments.
@@ -77,15 +78,15 @@ class LineProxy : public OneThread {
   nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
 
  private:
-  using Proxies = std::variant<Proxy1d<ThinLaw>, Proxy1d<ThickLaw>, Proxy1d<ProfileLaw>, Proxy1d<TissueLaw>>;
+  template <typename... Given>
+  static std::variant<Proxy1d<typename Given::Law>...> proxies_of(const std::variant<Given...>&);
+  using Proxies = decltype(proxies_of(std::declval<GivenLaw>()));
   Proxies made() const {
-    if (const auto* thin = std::get_if<GivenThinLaw>(&law_))
-      return Proxy1d<ThinLaw>(*thin, coupling_, period_, solver_);
-    if (const auto* profile = std::get_if<GivenProfileLaw>(&law_))
-      return Proxy1d<ProfileLaw>(*profile, coupling_, period_, solver_);
-    if (const auto* tissue = std::get_if<GivenTissueLaw>(&law_))
-      return Proxy1d<TissueLaw>(*tissue, coupling_, period_, solver_);
-    return Proxy1d<ThickLaw>(std::get<GivenThickLaw>(law_), coupling_, period_, solver_);
+    return std::visit(
+        [&]<typename Given>(const Given& law) -> Proxies {
+          return Proxy1d<typename Given::Law>(law, coupling_, period_, solver_);
+        },
+        law_);
   }
 
   GivenLaw law_;
