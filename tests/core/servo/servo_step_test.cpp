@@ -155,13 +155,14 @@ TEST_CASE("build() refuses an empty scene and names the missing fields") {
   const Scene empty;
   std::string missing;
   for (const Problem& problem : check(empty)) missing += problem.path + " ";
-  CHECK(missing == "needle.diameter needle.tip_angle coupling.stiffness membrane ");
+  CHECK(missing == "needle.diameter needle.tip_angle coupling.stiffness coupling.damping membrane ");
   Scene one;
   one.membranes.emplace_back();
   missing.clear();
   for (const Problem& problem : check(one)) missing += problem.path + " ";
   CHECK(missing ==
-        "needle.diameter needle.tip_angle coupling.stiffness membrane[0].stiffness membrane[0].friction "
+        "needle.diameter needle.tip_angle coupling.stiffness coupling.damping membrane[0].stiffness "
+        "membrane[0].precompression membrane[0].friction membrane[0].thickness membrane[0].point "
         "membrane[0].inward_normal ");
 }
 
