@@ -1,10 +1,13 @@
 // Many experiments that a program steers at once, in lanes and on threads: the engine of the Gymnasium environments.
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura_runtime/batch/fleet.hpp"
 #include "simd_code.hpp"
+#include "state.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -14,9 +17,21 @@ using batch::TrialRecord;
 
 constexpr std::size_t ticks_without_signals = 100'000;  // of all trials: 0.1 s or less
 
+/// The constructor's arguments, as they were given.
+struct FleetArguments {
+  Triple axis;
+  DeviceDynamics plant;
+  Hand hand;
+  nb::object threads;
+  std::optional<std::string> instructions;
+};
+
 class Fleet : public OneThread {
  public:
-  Fleet(const batch::FleetSetup& setup, std::size_t threads) : fleet_(setup, threads) {}
+  explicit Fleet(const FleetArguments& given)
+      : given_(given),
+        fleet_({given.plant, given.hand, unit(given.axis, "axis"), &code_named(given.instructions)},
+               threads_from(given.threads)) {}
 
   std::size_t size() const noexcept { return fleet_.size(); }
   std::size_t threads() const noexcept { return fleet_.threads(); }
@@ -55,6 +70,36 @@ class Fleet : public OneThread {
     return result(ticks);
   }
 
+  nb::tuple arguments() const {
+    return nb::make_tuple(given_.axis, given_.plant, given_.hand, given_.threads, given_.instructions);
+  }
+  /// For each trial (scene, start, seed, speeds, ticks, begun), as in TrialHistory.
+  nb::list histories() const {
+    must_rest();
+    nb::list trials;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const batch::TrialHistory& h = fleet_.history(i);
+      std::vector<double> speed;
+      std::vector<std::uint64_t> ticks;
+      for (const auto& move : h.moves) {
+        speed.push_back(move.speed);
+        ticks.push_back(move.ticks);
+      }
+      const std::size_t n = h.moves.size();
+      trials.append(nb::make_tuple(h.scene, to_array(h.start), h.seed, to_numpy(std::move(speed), {n}),
+                                   to_numpy(std::move(ticks), {n}), h.begun));
+    }
+    return trials;
+  }
+  void restore(const nb::list& trials) {
+    must_rest();
+    std::vector<batch::TrialHistory> histories;
+    for (const nb::handle trial : trials) histories.push_back(history_of(trial));
+    const Running running(*this);
+    const WithoutLock released;
+    fleet_.restore(histories);
+  }
+
   nb::object in_lanes() const {
     must_rest();
     std::vector<std::uint8_t> lanes;
@@ -63,6 +108,29 @@ class Fleet : public OneThread {
   }
 
  private:
+  static batch::TrialHistory history_of(nb::handle trial) {
+    const auto require = [](bool holds) {
+      if (!holds) throw nb::value_error("this is no state of a Fleet: give what its `state` was, unchanged");
+    };
+    require(nb::isinstance<nb::tuple>(trial) && nb::len(trial) == 6);
+    const auto parts = nb::borrow<nb::tuple>(trial);
+    batch::TrialHistory h{nb::cast<Scene>(parts[0]), to_vector(nb::cast<Triple>(parts[1])),
+                          nb::cast<std::uint64_t>(parts[2])};
+    raise_if(check(h.scene));
+    const Input speed = input_1d(parts[3], "speed"), ticks = input_1d(parts[4], "ticks");
+    const auto begun = nb::cast<std::size_t>(parts[5]);
+    require(is_place(h.start) && speed.size() == ticks.size());
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+      const double n = ticks.data()[i];
+      require(std::isfinite(speed.data()[i]) && n >= 1 && n <= 1e15 && n == std::floor(n));
+      if (h.ticks == begun) h.begin();
+      h.step(speed.data()[i], static_cast<std::size_t>(n));
+    }
+    require(h.begun == begun || h.ticks == begun);
+    h.begun = begun;
+    return h;
+  }
+
   nb::dict result(std::size_t ticks) {
     const std::size_t n = size();
     std::vector<TrialRecord> records;
@@ -97,6 +165,7 @@ class Fleet : public OneThread {
     return columns;
   }
 
+  FleetArguments given_;
   batch::Fleet fleet_;
 };
 
@@ -114,7 +183,7 @@ void bind_fleet(nb::module_& m) {
           "__init__",
           [](Fleet* self, const Triple& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& threads,
              const std::optional<std::string>& instructions) {
-            new (self) Fleet({plant, hand, unit(axis, "axis"), &code_named(instructions)}, threads_from(threads));
+            new (self) Fleet({axis, plant, hand, threads, instructions});
           },
           nb::arg("axis"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
           nb::arg("instructions") = nb::none(),
@@ -122,6 +191,20 @@ void bind_fleet(nb::module_& m) {
                   "instructions: str | None = None) -> None"),
           "A fleet without trials. axis: the direction of all needles. threads: 0 is one for each processor.\n"
           "instructions: one of simd_instructions(); \"portable\" computes each trial alone. Raises ValueError.")
+      .def(
+          "__reduce__",
+          [](nb::handle self) {
+            const auto& fleet = nb::cast<const Fleet&>(self);
+            return nb::make_tuple(nb::module_::import_("punctura.restore").attr("restored"),
+                                  nb::make_tuple(self.type(), fleet.arguments(), fleet.histories()));
+          },
+          nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
+      .def_prop_rw(
+          "state", &Fleet::histories, &Fleet::restore,
+          nb::for_getter(nb::sig("def state(self) -> list[tuple[typing.Any, ...]]")),
+          nb::for_setter(nb::sig("def state(self, trials: list[tuple[typing.Any, ...]], /) -> None")),
+          "What each trial is made of: its scene, start and seed, and the hand's speeds since then. Set it to\n"
+          "go back to the bit: all trials make their ticks again, together. Copies and pickles do the same.")
       .def_prop_ro("size", &Fleet::size, "Number of trials")
       .def_prop_ro("threads", &Fleet::threads)
       .def_prop_ro("in_lanes", &Fleet::in_lanes, nb::sig("def in_lanes(self) -> numpy.typing.NDArray[numpy.bool_]"),

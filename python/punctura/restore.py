@@ -1,11 +1,11 @@
-"""Restores pickled proxies and insertions."""
+"""Restores pickled proxies, insertions and fleets."""
 
 from __future__ import annotations
 
 from typing import Any
 
 
-def restored(cls: Any, arguments: tuple[Any, ...], state: bytes) -> Any:
+def restored(cls: Any, arguments: tuple[Any, ...], state: Any) -> Any:
     """Creates an object from its constructor arguments and sets its state."""
     made = cls(*arguments)
     made.state = state

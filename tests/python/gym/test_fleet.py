@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+from collections.abc import Callable
+
 import numpy as np
 import punctura as pn
 import pytest
@@ -90,3 +94,43 @@ def test_wrong_calls_are_refused_and_make_no_tick():
     assert (first["travel"] == second["travel"]).all() and (first["travel"] > 0).all()
     empty = Fleet(AXIS).step([], 5)
     assert empty["force"].shape == (0,)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda made: pickle.loads(pickle.dumps(made))])
+@pytest.mark.parametrize("instructions", [None, "portable"])
+def test_a_copied_or_pickled_fleet_goes_on_with_the_same_bits(again: Callable[[Fleet], Fleet], instructions: str):
+    speeds = np.linspace(-0.01, 0.03, 11)
+    made = fleet(11, instructions=instructions)
+    for _ in range(3):
+        made.step(speeds, 150)
+    made.place(4, SCENE, START, seed=20)
+    made.step(speeds + np.where(np.arange(11) == 2, 1e4, 0), 40)  # a fault in one of them
+    copied, kept = again(made), made.state
+    assert copied is not made and copied.in_lanes.tolist() == made.in_lanes.tolist()
+    later = [made.step(speeds, 75) for _ in range(4)]
+    made.state = kept
+    for one in (copied, made):
+        for step in later:
+            for name, column in one.step(speeds, 75).items():
+                np.testing.assert_array_equal(column, step[name])
+    assert later[-1]["fault"][2] != 0 and later[-1]["highest_force"].max() > 0.3
+
+
+def test_a_damaged_state_of_a_fleet_changes_nothing():
+    made = fleet(2)
+    made.step([0.01, 0.02], 100)
+    scene, start, seed, speeds, ticks, begun = made.state[0]
+    for bad in (
+        (scene, start, seed, [np.nan], ticks, begun),
+        (scene, start, seed, speeds, [-1], begun),
+        (scene, start, seed, speeds, [0.5], begun),
+        (scene, (np.nan, 0, 0), seed, speeds, ticks, begun),
+        (scene, start, seed, speeds, ticks, 50),
+        (scene, start, seed, [0.01, 0.02], ticks, begun),
+        (scene, start, seed),
+    ):
+        with pytest.raises(ValueError, match="state"):
+            made.state = [bad]
+        assert made.size == 2
+    made.state = []
+    assert made.size == 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 import sys
 from dataclasses import replace
 
@@ -111,6 +113,23 @@ def test_a_fault_ends_the_trial_and_is_in_the_result_of_its_own_trial_only():
             break
     assert pn.Fault(int(info["fault"][0])) == pn.Fault.position_jump and info["fault"][1] == 0
     assert list(ended) == [True, False] and reward[0] == -1
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+def test_a_copied_environment_goes_on_with_the_same_bits(again):
+    single = gymnasium.make("punctura/Venipuncture-v0")
+    several = gymnasium.make_vec("punctura/Venipuncture-v0", num_envs=5)
+    for env, action in ((single, np.float32([0.5])), (several, np.full((5, 1), 0.5, np.float32))):
+        env.reset(seed=1)
+        for _ in range(30):
+            env.step(action)
+        other = again(env)
+        for _ in range(80):  # far enough that the trials of the vector begin anew
+            (seen, *rest), (also_seen, *also_rest) = env.step(action), other.step(action)
+            np.testing.assert_array_equal(seen, also_seen)
+            np.testing.assert_equal(rest, also_rest)
+            if env is single and (rest[1] or rest[2]):
+                break
 
 
 def test_a_population_draws_within_its_ranges_and_repeats_with_the_seed():
