@@ -1,13 +1,10 @@
 // The instruction sets: for each, a vector of doubles and its operations. A file sees those that its options allow.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-
-#include "punctura/lab/plant/unit_normal.hpp"
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <immintrin.h>
@@ -34,8 +31,6 @@ struct Portable {
   static Vector negate(Vector a) noexcept { return -a; }
   static Vector root(Vector a) noexcept { return std::sqrt(a); }
   static Vector round_down(Vector a) noexcept { return std::floor(a); }
-  static Vector exponent(Vector a) noexcept { return exponent_of(a); }
-  static Vector significand(Vector a) noexcept { return significand_of(a); }
   static Vector smaller(Vector a, Vector b) noexcept { return b < a ? b : a; }
   static Vector larger(Vector a, Vector b) noexcept { return a < b ? b : a; }
   static Mask less(Vector a, Vector b) noexcept { return a < b; }
@@ -49,10 +44,6 @@ struct Portable {
   static unsigned bits(Mask m) noexcept { return m; }
 };
 
-/// The bits of the digits behind the point of a double.
-inline constexpr std::int64_t double_digits = 0x000fffffffffffff;
-
-// The exponent's bits become the last digits of 2^52, which is then subtracted.
 // _mm_min_pd(x, y) is x < y ? x : y. std::min(a, b) is b < a ? b : a, so the operands change places.
 #if defined(__SSE2__) || defined(_M_X64)
 /// Two doubles: every processor with 64-bit x86.
@@ -77,14 +68,6 @@ struct Sse2 {
     const Vector nearest = _mm_or_pd(_mm_sub_pd(_mm_add_pd(size, big), big), sign);
     const Vector down = _mm_sub_pd(nearest, _mm_and_pd(_mm_cmpgt_pd(nearest, a), _mm_set1_pd(1)));
     return select(_mm_cmplt_pd(size, big), down, a);
-  }
-  static Vector exponent(Vector a) noexcept {
-    const auto biased = _mm_srli_epi64(_mm_castpd_si128(a), 52), big = _mm_castpd_si128(_mm_set1_pd(0x1p52));
-    return _mm_sub_pd(_mm_castsi128_pd(_mm_or_si128(biased, big)), _mm_set1_pd(0x1p52 + 1023));
-  }
-  static Vector significand(Vector a) noexcept {
-    const auto digits = _mm_and_si128(_mm_castpd_si128(a), _mm_set1_epi64x(double_digits));
-    return _mm_castsi128_pd(_mm_or_si128(digits, _mm_castpd_si128(_mm_set1_pd(1))));
   }
   static Vector smaller(Vector a, Vector b) noexcept { return _mm_min_pd(b, a); }
   static Vector larger(Vector a, Vector b) noexcept { return _mm_max_pd(b, a); }
@@ -118,15 +101,6 @@ struct Avx2 {
   static Vector negate(Vector a) noexcept { return _mm256_xor_pd(a, _mm256_set1_pd(-0.0)); }
   static Vector root(Vector a) noexcept { return _mm256_sqrt_pd(a); }
   static Vector round_down(Vector a) noexcept { return _mm256_floor_pd(a); }
-  static Vector exponent(Vector a) noexcept {
-    const auto biased = _mm256_srli_epi64(_mm256_castpd_si256(a), 52),
-               big = _mm256_castpd_si256(_mm256_set1_pd(0x1p52));
-    return _mm256_sub_pd(_mm256_castsi256_pd(_mm256_or_si256(biased, big)), _mm256_set1_pd(0x1p52 + 1023));
-  }
-  static Vector significand(Vector a) noexcept {
-    const auto digits = _mm256_and_si256(_mm256_castpd_si256(a), _mm256_set1_epi64x(double_digits));
-    return _mm256_castsi256_pd(_mm256_or_si256(digits, _mm256_castpd_si256(_mm256_set1_pd(1))));
-  }
   static Vector smaller(Vector a, Vector b) noexcept { return _mm256_min_pd(b, a); }
   static Vector larger(Vector a, Vector b) noexcept { return _mm256_max_pd(b, a); }
   static Mask less(Vector a, Vector b) noexcept { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
@@ -164,15 +138,6 @@ struct Avx512 {
   static Vector round_down(Vector a) noexcept {
     return _mm512_maskz_roundscale_pd(0xff, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
   }
-  static Vector exponent(Vector a) noexcept {
-    const auto biased = _mm512_maskz_srli_epi64(0xff, _mm512_castpd_si512(a), 52),
-               big = _mm512_castpd_si512(_mm512_set1_pd(0x1p52));
-    return _mm512_sub_pd(_mm512_castsi512_pd(_mm512_or_si512(biased, big)), _mm512_set1_pd(0x1p52 + 1023));
-  }
-  static Vector significand(Vector a) noexcept {
-    const auto digits = _mm512_and_si512(_mm512_castpd_si512(a), _mm512_set1_epi64(double_digits));
-    return _mm512_castsi512_pd(_mm512_or_si512(digits, _mm512_castpd_si512(_mm512_set1_pd(1))));
-  }
   static Vector smaller(Vector a, Vector b) noexcept { return _mm512_maskz_min_pd(0xff, b, a); }
   static Vector larger(Vector a, Vector b) noexcept { return _mm512_maskz_max_pd(0xff, b, a); }
   static Mask less(Vector a, Vector b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
@@ -205,14 +170,6 @@ struct Neon {
   static Vector negate(Vector a) noexcept { return vnegq_f64(a); }
   static Vector root(Vector a) noexcept { return vsqrtq_f64(a); }
   static Vector round_down(Vector a) noexcept { return vrndmq_f64(a); }
-  static Vector exponent(Vector a) noexcept {
-    const Mask biased = vshrq_n_u64(vreinterpretq_u64_f64(a), 52), big = vreinterpretq_u64_f64(vdupq_n_f64(0x1p52));
-    return vsubq_f64(vreinterpretq_f64_u64(vorrq_u64(biased, big)), vdupq_n_f64(0x1p52 + 1023));
-  }
-  static Vector significand(Vector a) noexcept {
-    const Mask digits = vandq_u64(vreinterpretq_u64_f64(a), vdupq_n_u64(double_digits));
-    return vreinterpretq_f64_u64(vorrq_u64(digits, vreinterpretq_u64_f64(vdupq_n_f64(1))));
-  }
   // vminq_f64 treats -0 as smaller than 0, std::min does not.
   static Vector smaller(Vector a, Vector b) noexcept { return vbslq_f64(vcltq_f64(b, a), b, a); }
   static Vector larger(Vector a, Vector b) noexcept { return vbslq_f64(vcltq_f64(a, b), b, a); }

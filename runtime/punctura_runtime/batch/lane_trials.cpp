@@ -48,7 +48,7 @@ LaneTrials::LaneTrial* LaneTrials::put(std::size_t lane, const Scene& scene, std
   }
   LaneTrial made{period,
                  nullptr,
-                 Noise(seed),
+                 seed,
                  false,
                  {scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, period},
                  EntryDirection<double>(period),
@@ -94,20 +94,25 @@ LaneTrials::LaneTrial* LaneTrials::put(std::size_t lane, const Scene& scene, std
 void LaneTrials::put_hand(std::size_t lane, const DeviceDynamics& plant, const Hand& hand, const Vector3d& start) {
   LaneTrial& own = lanes_[lane];
   SceneBlock& b = *block_;
-  set(b.device_mass, lane, plant.mass);
-  set(b.friction, lane, plant.friction);
   set(b.encoder_step, lane, plant.encoder_step);
   set(b.max_force, lane, plant.max_force);
-  set(b.mass, lane, hand.mass);
-  set(b.damping, lane, hand.damping);
-  set(b.stiffness, lane, hand.stiffness);
-  set(b.h, lane, own.period / Plant::substeps);
+  const std::uint32_t steps = tip_steps(plant, hand, own.period);
+  const TipResponse response = tip_response(plant, hand, own.period / steps);
+  set(b.tip_steps, lane, steps);
+  set(b.response.time, lane, response.time);
+  set(b.response.travel, lane, response.travel);
+  set(b.response.kept, lane, response.kept);
+  set(b.response.way, lane, response.way);
+  set(b.response.velocity, lane, response.velocity);
+  set(b.response.stiffness, lane, response.stiffness);
+  set(b.response.damping, lane, response.damping);
+  set(b.response.friction, lane, response.friction);
   const Tremor::Filter tremor = Tremor(hand, own.period).filter();
   set(b.tremor_a1, lane, tremor.a1);
   set(b.tremor_a2, lane, tremor.a2);
   set(b.tremor_b, lane, tremor.b);
   own.trembles = tremor.b != 0;
-  set(b.phase, lane, own.noise.uniform_vector());
+  set(b.phase, lane, encoder_phase(own.seed));
   set(b.place, lane, start);
 }
 
@@ -127,13 +132,7 @@ void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noe
     set(to.position, lane, desired.position);
     if (!block_->has_hand) continue;
     set(to.velocity, lane, desired.velocity);
-    Vector3d u, v;
-    for (std::size_t j = 3; own.trembles && j-- > 0;) {  // in the order of Noise::normal_vector()
-      u[j] = own.noise.uniform();
-      v[j] = own.noise.uniform();
-    }
-    set(to.noise[0], lane, u);
-    set(to.noise[1], lane, v);
+    set(to.noise, lane, own.trembles ? tremor_noise(own.seed, tick + k) : Vector3d());
   }
 }
 

@@ -31,7 +31,7 @@ class LaneTrials : public LaneOwner {
   struct LaneTrial {
     double period;
     std::variant<const double*, StrokesMotion, RecordedMotion, Steered> motion;  ///< a pointer: given positions, m
-    Noise noise;
+    std::uint64_t seed;                                                          ///< of the noise
     bool trembles;
     PositionConditioner<double> conditioner;
     EntryDirection<double> from_motion;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "punctura/lab/plant/tip_response.hpp"
 #include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
 #include "punctura_runtime/batch/run_summary.hpp"
@@ -74,9 +75,9 @@ class RunOwner {
 
 /// A block. SI.
 struct SceneBlock {
-  // The device and the hand, as in DeviceDynamics and Hand. h: step of the plant, s.
-  LaneNumbers device_mass, friction, encoder_step, max_force;
-  LaneNumbers mass, damping, stiffness, h;
+  // The device and the hand. tip_steps: in a period.
+  LaneNumbers encoder_step, max_force, tip_steps;
+  BasicTipResponse<LaneNumbers> response;
   LaneNumbers tremor_a1, tremor_a2, tremor_b;
   LaneVectors phase, place;  ///< offset of the encoders, in steps; where the tip starts, m
   // The servo step.
@@ -91,7 +92,7 @@ struct SceneBlock {
   // The inputs of scene_ticks ticks, and their forces.
   struct Inputs {
     LaneVectors position, velocity;  ///< desired by the hand; without a hand, position is the given one
-    LaneVectors noise[2];            ///< uniform in [0, 1)
+    LaneVectors noise;               ///< of the tremor
     Vector3d told_axis, axis;        ///< of the sample, and as the model uses it
   };
   std::array<Inputs, scene_ticks> inputs;

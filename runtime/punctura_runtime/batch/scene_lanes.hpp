@@ -105,7 +105,8 @@ class SceneLanes {
     renew(gate_, BasicInputGate<V>({}, number(block_.period), false));
     renew(limiter_, Limiter({}, number(block_.period)));
     limiter_.set_spent(select(lanes, V(0), spent));
-    strange_ = strange_ && !lanes;
+    // A lane makes one step of the plant in a period: very stiff grips need more.
+    strange_ = (strange_ && !lanes) || number(block_.tip_steps) > 1;
     active_ = active_ && !lanes;
     for (State& state : states_) restart(state, lanes);
   }
@@ -229,13 +230,10 @@ class SceneLanes {
   /// Moves the plant for a period. force: of the device, N.
   void move(const SceneBlock::Inputs& inputs, const Vector& force) noexcept {
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
-    const Vector u = at<V>(inputs.noise[0], start_), v = at<V>(inputs.noise[1], start_);
-    const Vector normal(unit_normal(u.x(), v.x()), unit_normal(u.y(), v.y()), unit_normal(u.z(), v.z()));
-    const BasicDeviceDynamics<V> device{number(block_.device_mass), number(block_.friction),
-                                        number(block_.encoder_step), number(block_.max_force)};
-    const BasicHand<V> hand{number(block_.mass), number(block_.damping), number(block_.stiffness), V(0), V(0)};
-    tip_.step(device, hand, number(block_.h), force, {at<V>(inputs.position, start_), at<V>(inputs.velocity, start_)},
-              tremor_.step(normal));
+    const BasicDeviceDynamics<V> device{V(0), V(0), V(0), number(block_.max_force)};
+    const Vector tremor = tremor_.step(at<V>(inputs.noise, start_));
+    tip_.step(block_.response.of_each(number), device.saturate(force), at<V>(inputs.position, start_) + tremor,
+              at<V>(inputs.velocity, start_));
   }
 
   SceneBlock& block_;

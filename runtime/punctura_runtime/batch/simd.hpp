@@ -70,8 +70,6 @@ class Simd {
   friend Simd min(const Simd& a, const Simd& b) noexcept { return from(Isa::smaller(a.v_, b.v_)); }
   friend Simd max(const Simd& a, const Simd& b) noexcept { return from(Isa::larger(a.v_, b.v_)); }
   friend Simd sqrt(const Simd& a) noexcept { return from(Isa::root(a.v_)); }
-  friend Simd exponent_of(const Simd& a) noexcept { return from(Isa::exponent(a.v_)); }
-  friend Simd significand_of(const Simd& a) noexcept { return from(Isa::significand(a.v_)); }
   friend Simd floor(const Simd& a) noexcept { return from(Isa::round_down(a.v_)); }
 
  private:

@@ -34,8 +34,6 @@ struct Twice {
   static Vector negate(const Vector& x) noexcept { return {Isa::negate(x.a), Isa::negate(x.b)}; }
   static Vector root(const Vector& x) noexcept { return {Isa::root(x.a), Isa::root(x.b)}; }
   static Vector round_down(const Vector& x) noexcept { return {Isa::round_down(x.a), Isa::round_down(x.b)}; }
-  static Vector exponent(const Vector& x) noexcept { return {Isa::exponent(x.a), Isa::exponent(x.b)}; }
-  static Vector significand(const Vector& x) noexcept { return {Isa::significand(x.a), Isa::significand(x.b)}; }
   static Vector smaller(const Vector& x, const Vector& y) noexcept {
     return {Isa::smaller(x.a, y.a), Isa::smaller(x.b, y.b)};
   }

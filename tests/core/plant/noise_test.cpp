@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "punctura/lab/plant/tick_noise.hpp"
+
 using namespace punctura;
 
 TEST_CASE("a normal number is that of Box and Muller to a few units in the last place") {
@@ -37,4 +39,27 @@ TEST_CASE("normal numbers have mean 0 and variance 1") {
   }
   CHECK(std::abs(sum / n) < 4 / std::sqrt(n));
   CHECK(std::abs(squares / n - 1) < 4 * std::sqrt(2.0 / n));
+}
+
+// The first numbers that others' SplitMix64 gives for the seed 0.
+static_assert(split_mix(0, 1) == 0xe220a8397b1dcdaf && split_mix(0, 2) == 0x6e789e6aa1b965f4);
+static_assert(tick_noise(1, 2) == tick_noise(1, 2) && !(tick_noise(1, 2) == tick_noise(2, 1)));
+
+TEST_CASE("the noise of ticks is uniform, and ticks, axes and seeds are independent") {
+  constexpr int n = 40000;
+  Vector3d sum, squares;
+  double next = 0, across = 0, seeds = 0;
+  for (std::uint64_t k = 0; k < n; ++k) {
+    const Vector3d u = tick_noise(7, k);
+    sum += u;
+    squares += Vector3d(u.x() * u.x(), u.y() * u.y(), u.z() * u.z());
+    next += u.x() * tick_noise(7, k + 1).x();
+    across += u.x() * u.y();
+    seeds += u.x() * tick_noise(8, k).x();
+  }
+  for (int j = 0; j < 3; ++j) {
+    CHECK(std::abs(sum[j] / n) < 4 * std::sqrt(1. / 12 / n));
+    CHECK(std::abs(squares[j] / n - 1. / 12) < 4 * std::sqrt(1. / 180 / n));
+  }
+  for (const double product : {next, across, seeds}) CHECK(std::abs(product / n) < 4. / 12 / std::sqrt(n));
 }

@@ -18,7 +18,7 @@ static_assert(std::same_as<ServoStepF::Scalar, float> && std::same_as<decltype(S
 static_assert(std::same_as<decltype(std::declval<ServoStepF>().insertion().force()), const Vector3<float>&>);
 static_assert(std::same_as<decltype(std::declval<ForceLimiterF>().step({}, 0, 0)), Vector3<float>>);
 static_assert(std::same_as<decltype(std::declval<PlantF>().measured()), Vector3<float>>);
-static_assert(std::same_as<decltype(std::declval<BasicTremor<float>>().step(std::declval<Noise&>())), Vector3<float>>);
+static_assert(std::same_as<decltype(std::declval<BasicTremor<float>>().step({})), Vector3<float>>);
 static_assert(sizeof(InputGateF) < sizeof(InputGate) && sizeof(ForceLimiterF) < sizeof(ForceLimiter));
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "punctura/lab/plant/hand_dynamics.hpp"
-#include "punctura/lab/plant/noise.hpp"
 
 namespace punctura {
 
@@ -14,7 +13,8 @@ template <typename Scalar>
 class BasicTremor {
  public:
   using Vector = Vector3<Scalar>;
-  /// y(k) = a1 y(k-1) + a2 y(k-2) + b u(k), with white noise u of variance 1.
+  /// y(k) = a1 y(k-1) + a2 y(k-2) + b u(k), with white noise u, uniform between -0.5 and 0.5: tick_noise(). The sum of
+  /// many of them is nearly normal.
   struct Filter {
     Scalar a1{}, a2{}, b{};
   };
@@ -27,23 +27,19 @@ class BasicTremor {
     filter_.a2 = -radius * radius;
     const Scalar a1 = filter_.a1, a2 = filter_.a2;
     const Scalar variance = (1 - a2) / ((1 + a2) * ((1 - a2) * (1 - a2) - a1 * a1));
-    filter_.b = hand.tremor_rms / std::sqrt(variance);
+    filter_.b = hand.tremor_rms * std::sqrt(12 / variance);
   }
   /// For lanes, which have no exp().
   explicit BasicTremor(const Filter& filter) noexcept : filter_(filter) {}
 
   /// The displacement in the next period, m.
-  Vector step(Noise& noise) noexcept {
-    if (filter_.b == 0) return Vector::Zero();
-    return step(noise.normal_vector().template cast<Scalar>());
-  }
-  /// The same from white noise u of variance 1.
   Vector step(const Vector& u) noexcept {
     const Vector y = filter_.a1 * y1_ + filter_.a2 * y2_ + filter_.b * u;
     y2_ = y1_;
     y1_ = y;
     return y;
   }
+  bool is_off() const noexcept { return filter_.b == 0; }
   const Filter& filter() const noexcept { return filter_; }
   /// Starts the tremor of these lanes anew. filter: of all lanes from now on.
   void restart(const Mask<Scalar>& lanes, const Filter& filter) noexcept {

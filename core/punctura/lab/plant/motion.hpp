@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "punctura/lab/plant/hand.hpp"
+#include "punctura/lab/plant/noise.hpp"
 
 namespace punctura {
 

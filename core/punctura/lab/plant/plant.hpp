@@ -2,31 +2,47 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "punctura/lab/plant/hand.hpp"
+#include "punctura/lab/plant/tick_noise.hpp"
 #include "punctura/lab/plant/tip_motion.hpp"
 
 namespace punctura {
+
+/// The numbers of a seed: the offset of the encoders, in steps, and the noise of the tremor in tick k.
+inline Vector3d encoder_phase(std::uint64_t seed) noexcept { return tick_noise(seed, 0); }
+inline Vector3d tremor_noise(std::uint64_t seed, std::uint64_t k) noexcept { return tick_noise(seed, k + 1); }
 
 /// A haptic device in a hand, at its tip: BasicTipMotion with the noise of a seed.
 template <typename Scalar>
 class BasicPlant {
  public:
   using Vector = Vector3<Scalar>;
-  static constexpr int substeps = BasicTipMotion<Scalar>::substeps;
 
   BasicPlant(const BasicDeviceDynamics<Scalar>& device, const BasicHand<Scalar>& hand, Scalar period,
              std::uint64_t seed = 0) noexcept
-      : device_(device), hand_(hand), h_(period / substeps), noise_(seed), tremor_(hand, period) {
-    phase_ = noise_.uniform_vector().template cast<Scalar>();
-  }
+      : device_(device),
+        hand_(hand),
+        seed_(seed),
+        steps_(tip_steps(device, hand, period)),
+        response_(tip_response(device, hand, static_cast<double>(period) / steps_).of_each([](double number) {
+          return static_cast<Scalar>(number);
+        })),
+        tremor_(hand, period),
+        phase_(encoder_phase(seed).template cast<Scalar>()) {}
 
   /// Sets the position of the tip, m, at rest.
   void place(const Vector& position) noexcept { tip_ = {position, Vector::Zero()}; }
 
   /// One servo period. force: constant force of the device, N. desired: the desired motion of the hand.
   void step(const Vector& force, const BasicDesired<Scalar>& desired) noexcept {
-    tip_.step(device_, hand_, h_, force, desired, tremor_.step(noise_));
+    const Vector noise = tremor_.is_off() ? Vector() : tremor_noise(seed_, tick_).template cast<Scalar>();
+    const Vector held = device_.saturate(force), wanted = desired.position + tremor_.step(noise);
+    for (std::uint32_t i = 0; i < steps_; ++i)
+      tip_.step(response_, held, wanted + (static_cast<Scalar>(i) * response_.time) * desired.velocity,
+                desired.velocity);
+    ++tick_;
   }
 
   const Vector& tip() const noexcept { return tip_.x; }       ///< true position of the tip, m
@@ -37,22 +53,23 @@ class BasicPlant {
 
   /// For save_state() and load_state() (state/archive.hpp).
   static void archive(auto& self, auto& state) {
-    Noise::archive(self.noise_, state);
+    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
     BasicTremor<Scalar>::archive(self.tremor_, state);
     state.numbers(self.tip_.x, self.tip_.v);
   }
   void describe(auto& parameters) const {
     device_.describe(parameters);
     hand_.describe(parameters);
-    noise_.describe(parameters);
-    parameters.numbers(h_);
+    parameters.index(seed_, 0);
+    parameters.numbers(response_.time);
   }
 
  private:
   BasicDeviceDynamics<Scalar> device_;
   BasicHand<Scalar> hand_;
-  Scalar h_;
-  Noise noise_;
+  std::uint64_t seed_, tick_ = 0;
+  std::uint32_t steps_;
+  BasicTipResponse<Scalar> response_;
   BasicTremor<Scalar> tremor_;
   Vector phase_;
   BasicTipMotion<Scalar> tip_{};
