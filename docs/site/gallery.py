@@ -32,7 +32,7 @@ RUNTIME = ROOT / "runtime"
 # What an example in C++ needs of the runtime, on the system that builds the documentation.
 SOURCES = (
     *(f"os/{name}.cpp" for name in ("linux", "posix_library", "socket")),
-    *("loop/servo_loop.cpp", "loop/thumb_loop.cpp", "backends/simulated.cpp"),
+    *("loop/servo_loop.cpp", "loop/thumb_loop.cpp", "backends/polled_device.cpp", "backends/simulated.cpp"),
 )
 PEAK = re.compile(r"rest +([\d.]+) s +second peak +([\d.]+) N")
 PRINTED = re.compile(r"(?:depth|y) +(-?[\d.]+) mm +force +(-?[\d.]+) N")
