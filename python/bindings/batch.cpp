@@ -12,6 +12,7 @@
 #include "state.hpp"
 #include "ticks.hpp"
 #include "without_lock.hpp"
+#include "word.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -73,7 +74,7 @@ class LawBatch : public LineBatch, public OneThread {
   std::vector<std::byte> save() const { return save_state(*this); }
   bool load(std::span<const std::byte> state) { return load_state(*this, state); }
   nb::tuple arguments() const {
-    return nb::make_tuple(laws_->argument(), couplings_.argument(), period(), name_of(solver()), trials());
+    return nb::make_tuple(laws_->argument(), couplings_.argument(), period(), Word(solver()), trials());
   }
 
  private:
@@ -83,7 +84,7 @@ class LawBatch : public LineBatch, public OneThread {
 
 constexpr std::size_t most_trials = 1'000'000'000;
 
-void make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period, const std::string& solver,
+void make(LawBatch* self, const nb::object& law, const nb::object& coupling, double period, const Word<Solver>& solver,
           const nb::object& count) {
   std::optional<std::size_t> trials;
   if (!count.is_none()) trials = count_from(count, "trials", 0, most_trials);
@@ -97,7 +98,7 @@ void make(LawBatch* self, const nb::object& law, const nb::object& coupling, dou
   const std::size_t n = trials.value_or(1);
   enough_memory(sizeof(batch::LineBlock) / static_cast<double>(batch::block_lanes) * static_cast<double>(n),
                 std::to_string(n) + " trials", "Take fewer trials.");
-  new (self) LawBatch(std::move(laws), std::move(couplings), period, solver_from(solver), n);
+  new (self) LawBatch(std::move(laws), std::move(couplings), period, solver.at("solver"), n);
 }
 
 /// An array of float64 with any strides, without a copy if it already is one.
@@ -118,8 +119,9 @@ bool overlaps_itself(const Forces& array) {
   return outer > 1 && far <= static_cast<std::int64_t>(inner - 1) * close;
 }
 
-nb::object run(LawBatch& self, const nb::object& depths, const nb::object& out, const nb::object& threads,
-               const nb::object& block, const std::optional<std::string>& instructions, const nb::object& progress) {
+Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Object<"int">& threads,
+           const Object<"int">& block, const std::optional<std::string>& instructions,
+           const ProgressArgument& progress) {
   const nb::object numpy = nb::module_::import_("numpy");
   const nb::object given = real_numbers(depths, "p");
   const auto p = nb::cast<Depths>(given);
@@ -195,6 +197,7 @@ void bind_batch(nb::module_& m) {
       "Many independent trials of a proxy on a line, computed together. K06 section 3.1, (33)\n\n"
       "Each trial gets the bits that Proxy1d gives, whatever the instruction set, the block and the threads are.");
   def_state(line);
+  def_reset(line, "Resets all trials to the state before the first tick.");
   def_repr(line, "<LineBatch of {0.trials} trials>");
   line.def("__init__", &make, nb::arg("law").none(), nb::arg("coupling").none(), nb::arg("period"),
            nb::arg("solver") = "exact", nb::arg("trials") = nb::none(),
@@ -204,28 +207,17 @@ void bind_batch(nb::module_& m) {
                "= 'exact', trials: int | None = None) -> None"),
            "law, coupling: one for each trial, or a single one for all. period: T, s. trials: how many, if both are\n"
            "single. Raises ConfigurationError, ValueError.")
-      .def(
-          "run", &run, nb::arg("p"), nb::kw_only(), nb::arg("out") = nb::none(), nb::arg("threads") = nb::none(),
-          nb::arg("block") = 256, nb::arg("instructions") = nb::none(), nb::arg("progress") = nb::none(),
-          nb::sig("def run(self, p: numpy.typing.ArrayLike, *, out: numpy.typing.NDArray[numpy.float64] | None = None, "
-                  "threads: int | None = None, block: int = 256, instructions: str | None = None, "
-                  "progress: Progress = None) -> numpy.typing.NDArray[numpy.float64]"),
-          "Makes the next ticks of all trials. Returns the forces on the devices, (ticks, trials), N.\n\n"
-          "p: depths, m, (ticks,) for the same motion in all trials, or (ticks, trials). A transposed array is read\n"
-          "without a copy, and the forces then have the same order in memory. out: an array for the forces.\n"
-          "threads: default: one for each processor. block: trials that a thread computes together. instructions:\n"
-          "one of simd_instructions(). progress, Ctrl-C: see Insertion.run. Raises ValueError, and all trials then\n"
-          "keep the state from before.")
-      .def(
-          "reset",
-          [](LawBatch& self) {
-            self.must_rest();
-            self.reset();
-          },
-          "Resets all trials to the state before the first tick.")
+      .def("run", &run, nb::arg("p"), nb::kw_only(), nb::arg("out") = nb::none(), nb::arg("threads") = nb::none(),
+           nb::arg("block") = 256, nb::arg("instructions") = nb::none(), nb::arg("progress") = nb::none(),
+           "Makes the next ticks of all trials. Returns the forces on the devices, (ticks, trials), N.\n\n"
+           "p: depths, m, (ticks,) for the same motion in all trials, or (ticks, trials). A transposed array is read\n"
+           "without a copy, and the forces then have the same order in memory. out: an array for the forces.\n"
+           "threads: default: one for each processor. block: trials that a thread computes together. instructions:\n"
+           "one of simd_instructions(). progress, Ctrl-C: see Insertion.run. Raises ValueError, and all trials then\n"
+           "keep the state from before.")
       .def_prop_ro("trials", &LawBatch::trials)
       .def_prop_ro("period", &LawBatch::period, "T, s")
-      .def_prop_ro("solver", [](const LawBatch& self) { return name_of(self.solver()); })
+      .def_prop_ro("solver", [](const LawBatch& self) { return Word(self.solver()); })
       .def_prop_ro("nbytes", &LawBatch::bytes, "Memory of constants and states, bytes, without the laws");
 }
 

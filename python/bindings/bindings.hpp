@@ -14,13 +14,13 @@
 #include <memory>
 #include <vector>
 
+#include "named.hpp"
 #include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/proxy/solver.hpp"
 
 namespace nb = nanobind;
 
@@ -158,10 +158,6 @@ void check_period(double period, std::vector<Problem>& problems);
 void raise_if(const std::vector<Problem>& problems);
 /// The same for a word that is not allowed.
 [[noreturn]] void raise_word(const std::string& path, const std::string& given, const char* reason);
-
-/// Converts "exact" or "paper" to Solver and back. Throws ConfigurationError for any other word.
-Solver solver_from(const std::string& name, const std::string& path = "solver");
-std::string name_of(Solver solver);
 
 /// The number of axes of a NumPy array or scalar; 0 for everything without `ndim`. Before NumPy 2.4, an array with one
 /// element and any number of axes counts as a number.

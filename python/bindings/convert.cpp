@@ -161,14 +161,6 @@ void raise_word(const std::string& path, const std::string& given, const char* r
   raise(list);
 }
 
-Solver solver_from(const std::string& name, const std::string& path) {
-  if (name == "exact") return Solver::exact;
-  if (name == "paper") return Solver::paper;
-  raise_word(path, name, "must be \"exact\" or \"paper\"");
-}
-
-std::string name_of(Solver solver) { return solver == Solver::exact ? "exact" : "paper"; }
-
 Vector3d unit(const Triple& direction, const std::string& path) {
   const Vector3d v = to_vector(direction);
   if (!v.allFinite() || !(v.stableNorm() > 0))

@@ -8,7 +8,7 @@
 namespace punctura::bindings {
 namespace {
 
-nb::list enumerated() {
+Object<"list[BackendState]"> enumerated() {
   std::vector<BackendStatus> all;
   {
     const WithoutLock release;
@@ -38,7 +38,7 @@ std::shared_ptr<Device> opened(const std::string& backend, double rate, const st
 }  // namespace
 
 void bind_devices(nb::module_& m) {
-  m.def("enumerate_devices", &enumerated, nb::sig("def enumerate_devices() -> list[BackendState]"),
+  m.def("enumerate_devices", &enumerated,
         "Lists the devices of all back-ends. Sends no force.\n\n"
         "Each back-end is a dict: backend, state (available, library_not_found, symbol_missing, no_device, in_use,\n"
         "needs_calibration, fault), detail (text: where it searched, what to do), devices.");

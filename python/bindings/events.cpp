@@ -96,7 +96,8 @@ std::uint32_t bits_of(double number) noexcept {
 
 /// Finds the events of a batch without holding the GIL. Throws ValueError for an event without time or depth; the
 /// finder has then not taken the batch.
-nb::list add(BatchFinder& finder, const nb::object& columns) {
+Object<"list[FoundEvent]"> add(BatchFinder& finder,
+                               const Object<"Ticks | dict[str, numpy.typing.NDArray[typing.Any]]">& columns) {
   const Input depth = input(columns["depth"], "depth");
   if (depth.ndim() != 2) throw nb::value_error("columns[\"depth\"] must be (n, m)");
   const std::size_t n = depth.shape(0), m = depth.shape(1);
@@ -156,7 +157,7 @@ std::array<double, 6> crossing_of(const Scene& scene, std::size_t i, double cos_
   return {c.cos_beta, c.far_face, c.peak, c.through, c.again, c.shaft};
 }
 
-nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
+Object<"LawCurve"> law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
   const PlacedMembrane& placed = membrane_of(scene, i);
   std::vector<Problem> problems;
   check_field(obliquity_field, obliquity, "", problems);
@@ -173,7 +174,7 @@ nb::dict law_curve_of(const Scene& scene, std::size_t i, double obliquity) {
   return d;
 }
 
-nb::object obliquities(const Scene& scene, const nb::object& axis, const nb::object& entered) {
+Floats obliquities(const Scene& scene, const ArrayLike& axis, const ArrayLike& entered) {
   const Rows axes(input(axis, "axis"), 1, "axis");
   const std::size_t n = scene.membranes.size();
   std::vector<double> angles(n);
@@ -208,16 +209,12 @@ void bind_events(nb::module_& m) {
           },
           nb::arg("scene"))
       .def("add", &add, nb::arg("columns"),
-           nb::sig("def add(self, columns: Ticks | dict[str, numpy.typing.NDArray[typing.Any]]) -> list[FoundEvent]"),
            "Finds the events of the next ticks. Each is a dict of the arguments of punctura.events.Event.");
 
   m.def("law_curve", &law_curve_of, nb::arg("scene"), nb::arg("membrane"), nb::arg("obliquity"),
-        nb::sig("def law_curve(scene: Scene, membrane: int, obliquity: float) -> LawCurve"),
         "Phi_I and Phi_O (N) of one membrane over the depth (m), with points on both sides of each break, and the\n"
         "depth at which the needle comes out. obliquity: beta, rad.");
   m.def("obliquities", &obliquities, nb::arg("scene"), nb::arg("axis"), nb::arg("entered") = nb::none(),
-        nb::sig("def obliquities(scene: Scene, axis: numpy.typing.ArrayLike, entered: numpy.typing.ArrayLike | None "
-                "= None) -> numpy.typing.NDArray[numpy.float64]"),
         "Angle between the needle and each membrane's inward normal, (m,), rad, at most 85 degrees.\n\n"
         "axis (3,): direction of the stylus. entered (m, 3): the needle's direction at entry for each membrane that\n"
         "it is in, NaN for the others.");

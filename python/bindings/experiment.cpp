@@ -1,17 +1,12 @@
 // core/punctura/lab/plant/experiment.hpp: K06 section 4 without hardware.
 #include "punctura/lab/plant/experiment.hpp"
 
-#include <nanobind/stl/variant.h>
-
 #include "bindings.hpp"
+#include "motion.hpp"
 #include "state.hpp"
-#include "tick_columns.hpp"
-#include "ticks.hpp"
 
 namespace punctura::bindings {
 namespace {
-
-using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
 
 /// One Python class for all kinds of motion. It keeps its constructor arguments.
 class AnyExperiment : public OneThread {
@@ -31,16 +26,12 @@ class AnyExperiment : public OneThread {
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
                 const Hand& hand, std::uint64_t seed)
       : scene_(scene), motion_(motion), axis_(to_array(axis)), plant_(plant), hand_(hand), seed_(seed) {
-    if (const auto* strokes = std::get_if<Strokes>(&motion)) {
-      StrokesMotion laid_out(*strokes, seed);
-      duration_ = laid_out.duration();
-      experiment_.emplace<Experiment<StrokesMotion>>(scene, std::move(laid_out), axis, plant, hand, seed);
-    } else if (const auto* recorded = std::get_if<RecordedMotion>(&motion)) {
-      duration_ = recorded->duration();
-      experiment_.emplace<Experiment<RecordedMotion>>(scene, *recorded, axis, plant, hand, seed);
-    } else {
-      experiment_.emplace<Experiment<Target>>(scene, std::get<Target>(motion), axis, plant, hand, seed);
-    }
+    std::visit(
+        [&]<typename Motion>(Motion laid_out) {
+          if constexpr (!std::is_same_v<Motion, Target>) duration_ = laid_out.duration();
+          experiment_.emplace<Experiment<Motion>>(scene, std::move(laid_out), axis, plant, hand, seed);
+        },
+        laid_out(motion, seed));
   }
 
   const Scene& scene() const noexcept { return scene_; }
@@ -57,10 +48,10 @@ class AnyExperiment : public OneThread {
     return visit(*this, [](const auto& experiment) { return experiment.ticks(); });
   }
 
-  nb::object run(double duration, const nb::object& progress) {
-    if (!(duration >= 0 && duration <= 1e9)) throw nb::value_error("duration must be from 0 to 1e9 s");
-    const auto n = static_cast<std::size_t>(std::llround(duration * scene_.servo.rate));
-    return visit(*this, [&](auto& experiment) { return made(experiment, n, progress); });
+  TicksObject run(double duration, const ProgressArgument& progress) {
+    const std::size_t n = ticks_in(duration, scene_.servo.rate);
+    const Running running(*this);
+    return visit(*this, [&](auto& experiment) { return run_experiment(experiment, n, progress); });
   }
 
   std::vector<std::byte> save() const {
@@ -72,21 +63,6 @@ class AnyExperiment : public OneThread {
   nb::tuple arguments() const { return nb::make_tuple(scene_, motion_, plant_, hand_, seed_, axis_); }
 
  private:
-  template <typename E>
-  nb::object made(E& experiment, std::size_t n, const nb::object& progress) {
-    ExperimentColumns columns;
-    columns.reserve(n, experiment.servo().snapshot().membrane_count);
-    const Running running(*this);
-    make_ticks(
-        n,
-        [&](std::size_t) {
-          const Snapshot& snapshot = experiment.step();
-          columns.add(snapshot, experiment.extra());
-        },
-        progress);
-    return columns.to_ticks();
-  }
-
   Scene scene_;
   AnyMotion motion_;
   Triple axis_;
@@ -110,18 +86,15 @@ void bind_experiment(nb::module_& m) {
       .def(
           "__init__",
           [](AnyExperiment* self, const Scene& scene, const AnyMotion& motion, const DeviceDynamics& plant,
-             const Hand& hand, std::uint64_t seed, const nb::object& axis) {
+             const Hand& hand, std::uint64_t seed, const Object<"_Vector">& axis) {
             raise_if(check(scene));
             const Triple direction = axis.is_none() ? scene.membranes.front().inward_normal : nb::cast<Triple>(axis);
             new (self) AnyExperiment(scene, motion, unit(direction, "axis"), plant, hand, seed);
           },
           nb::arg("scene"), nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("seed") = 0, nb::arg("axis") = nb::none(),
-          nb::sig("def __init__(self, scene: Scene, motion: Strokes | RecordedMotion | Target, plant: Plant = ..., "
-                  "hand: Hand = ..., seed: int = 0, axis: _Vector | None = None) -> None"),
           "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
       .def("run", &AnyExperiment::run, nb::arg("duration"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           nb::sig("def run(self, duration: float, *, progress: Progress = None) -> Ticks"),
            "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.\n\n"
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")

@@ -1,4 +1,6 @@
 // Many experiments that a program steers at once, in lanes and on threads: the engine of the Gymnasium environments.
+#include <nanobind/stl/optional.h>
+
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -48,7 +50,7 @@ class Fleet : public OneThread {
     fleet_.place(i, scene, to_vector(start), seed);
   }
 
-  nb::dict step(const nb::object& speeds, std::size_t ticks) {
+  Object<"FleetStep"> step(const ArrayLike& speeds, std::size_t ticks) {
     const Input speed = input_1d(speeds, "speed");
     const std::size_t n = size();
     if (speed.size() != n)
@@ -100,7 +102,7 @@ class Fleet : public OneThread {
     fleet_.restore(histories);
   }
 
-  nb::object in_lanes() const {
+  Object<"numpy.typing.NDArray[numpy.bool_]"> in_lanes() const {
     must_rest();
     std::vector<std::uint8_t> lanes;
     for (std::size_t i = 0; i < size(); ++i) lanes.push_back(fleet_.in_lanes(i) ? 1 : 0);
@@ -131,7 +133,7 @@ class Fleet : public OneThread {
     return h;
   }
 
-  nb::dict result(std::size_t ticks) {
+  Object<"FleetStep"> result(std::size_t ticks) {
     const std::size_t n = size();
     std::vector<TrialRecord> records;
     std::size_t m = 0;
@@ -181,14 +183,12 @@ void bind_fleet(nb::module_& m) {
   fleet
       .def(
           "__init__",
-          [](Fleet* self, const Triple& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& threads,
-             const std::optional<std::string>& instructions) {
+          [](Fleet* self, const Triple& axis, const DeviceDynamics& plant, const Hand& hand,
+             const Object<"int">& threads, const std::optional<std::string>& instructions) {
             new (self) Fleet({axis, plant, hand, threads, instructions});
           },
           nb::arg("axis"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("threads") = 0,
           nb::arg("instructions") = nb::none(),
-          nb::sig("def __init__(self, axis: Sequence[float], plant: Plant = ..., hand: Hand = ..., threads: int = 0, "
-                  "instructions: str | None = None) -> None"),
           "A fleet without trials. axis: the direction of all needles. threads: 0 is one for each processor.\n"
           "instructions: one of simd_instructions(); \"portable\" computes each trial alone. Raises ValueError.")
       .def(
@@ -207,7 +207,7 @@ void bind_fleet(nb::module_& m) {
           "go back to the bit: all trials make their ticks again, together. Copies and pickles do the same.")
       .def_prop_ro("size", &Fleet::size, "Number of trials")
       .def_prop_ro("threads", &Fleet::threads)
-      .def_prop_ro("in_lanes", &Fleet::in_lanes, nb::sig("def in_lanes(self) -> numpy.typing.NDArray[numpy.bool_]"),
+      .def_prop_ro("in_lanes", &Fleet::in_lanes,
                    "(n,) Whether lanes compute the trial. One that came near a fault is computed alone, as is one\n"
                    "whose scene is of another kind than the others in its vector (solver, number of membranes, "
                    "...).")
@@ -215,7 +215,6 @@ void bind_fleet(nb::module_& m) {
            "Starts trial i anew; i = size adds a trial. start: position of the tip, m. seed: of tremor and encoders.\n"
            "Raises ConfigurationError, ValueError and IndexError.")
       .def("step", &Fleet::step, nb::arg("speed"), nb::arg("ticks"),
-           nb::sig("def step(self, speed: numpy.typing.ArrayLike, ticks: int) -> FleetStep"),
            "Makes `ticks` ticks in each trial. speed (n,): of the hand along the needle, m/s. Raises ValueError.\n\n"
            "Runs without Python's lock. After Ctrl-C some ticks were made.");
 }

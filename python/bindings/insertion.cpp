@@ -4,10 +4,8 @@
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/build.hpp"
-#include "punctura/servo/record.hpp"
-#include "state.hpp"
-#include "tick_columns.hpp"
-#include "ticks.hpp"
+#include "run_in_space.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -27,31 +25,19 @@ std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& 
   return to_array(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
 }
 
-nb::object run(SceneInsertion& insertion, const nb::object& positions, const nb::object& axis,
-               const nb::object& progress) {
-  const auto count = static_cast<std::uint32_t>(insertion.size());
-  SnapshotColumns columns(
-      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
-  columns.reserve(nb::len_hint(positions), count);  // before the positions are copied
-  const Input p = points(positions, "p");
-  const std::size_t n = p.shape(0);
-  const Rows axes(input(axis, "axis"), n, "axis");
-  check_places(p.data(), 3 * n, "p", 3);
-  if (insertion.uses_axis()) axes.check("axis");
-  Snapshot record{};
-  record.membrane_count = count;
-  const OneThread::Running running(insertion);
-  const auto tick = [&](std::size_t i) {
-    const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
-    record.sample.position = to_array(position);
-    record.sample.axis = to_array(direction);
-    record.force = to_array(insertion.step(position, direction));
-    record.tip = to_array(insertion.tip());
-    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(insertion.tick(j));
-    columns.add(record);
-  };
-  make_ticks(n, tick, progress);
-  return columns.to_ticks();
+TicksObject run(SceneInsertion& insertion, const ArrayLike& positions, const ArrayLike& axis,
+                const ProgressArgument& progress) {
+  return run_in_space(
+      insertion, insertion,
+      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"},
+      positions, axis, progress);
+}
+
+template <typename Get>
+auto of_membranes(const SceneInsertion& insertion, Get get) {
+  std::vector<decltype(get(insertion.tick(0)))> values;
+  for (std::size_t i = 0; i < insertion.size(); ++i) values.push_back(get(insertion.tick(i)));
+  return shown_tuple(values);
 }
 
 SceneInsertion make_insertion(Scene scene) {
@@ -68,16 +54,10 @@ void bind_insertion(nb::module_& m) {
       "(41), Fig. 8\n\n"
       "Gives the model's force without safety limits.");
   def_state(insertion);
+  def_reset(insertion);
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
   def_init(insertion, &make_insertion, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
   insertion.def_ro("scene", &SceneInsertion::scene)
-      .def(
-          "reset",
-          [](SceneInsertion& self) {
-            self.must_rest();
-            self.reset();
-          },
-          "Resets to the state before the first tick.")
       .def(
           "step",
           [](SceneInsertion& self, const Triple& p, const Triple& axis) {
@@ -96,25 +76,18 @@ void bind_insertion(nb::module_& m) {
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, *, "
-                   "progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro("depths", resting<SceneInsertion>([](const SceneInsertion& i) {
-                     std::vector<double> depths;
-                     for (std::size_t k = 0; k < i.size(); ++k) depths.push_back(i.tick(k).depth);
-                     return nb::tuple(nb::cast(depths));
+                     return of_membranes(i, [](const auto& tick) { return tick.depth; });
                    }),
-                   nb::sig("def depths(self) -> tuple[float, ...]"),
                    "Depth of the proxy behind each membrane, last tick, m")
       .def_prop_ro("phases", resting<SceneInsertion>([](const SceneInsertion& i) {
-                     std::vector<Phase> phases;
-                     for (std::size_t k = 0; k < i.size(); ++k) phases.push_back(i.tick(k).phase);
-                     return nb::tuple(nb::cast(phases));
+                     return of_membranes(i, [](const auto& tick) { return tick.phase; });
                    }),
-                   nb::sig("def phases(self) -> tuple[Phase, ...]"), "Phase at each membrane in the last tick")
+                   "Phase at each membrane in the last tick")
       .def_prop_ro("tip", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.tip()); }),
                    "The conditioned position, m")
       .def_prop_ro("force", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.force()); }),

@@ -4,9 +4,25 @@
 #include "punctura/scene/build.hpp"
 #include "punctura/scene/passivity.hpp"
 #include "punctura/servo/snapshot.hpp"
-#include "value.hpp"
+#include "struct.hpp"
 
 namespace punctura::bindings {
+namespace {
+
+constexpr std::tuple device_rows{
+    row("backend", &DeviceInfo::backend),
+    row("model", &DeviceInfo::model),
+    row("serial", &DeviceInfo::serial),
+    row("has_orientation", &DeviceInfo::has_orientation),
+    row("button_count", &DeviceInfo::button_count),
+    row("max_force", &DeviceInfo::max_force, "Peak force, N."),
+    row("continuous_force", &DeviceInfo::continuous_force, "Continuous force, N."),
+    row("max_stiffness", &DeviceInfo::max_stiffness, "N/m."),
+    row("encoder_step", &DeviceInfo::encoder_step, "m."),
+    row("rate", &DeviceInfo::rate, "Servo rate, Hz."),
+};
+
+}  // namespace
 
 void bind_limits(nb::module_& m) {
   nb::enum_<Fault>(m, "Fault", nb::is_arithmetic(), "The reason why a tick gave no force.")
@@ -35,50 +51,8 @@ void bind_limits(nb::module_& m) {
       .value("continuous", Limit::continuous, "The budget of continuous_force is used up.")
       .value("temperature", Limit::temperature, "The device reports warm motors.");
 
-  const GateLimits gate;
-  auto gate_class =
-      nb::class_<GateLimits>(m, "GateLimits", "Limits that a device reading must meet before the model uses it.")
-          .def(
-              "__init__",
-              [](GateLimits* self, double speed, double stale, double deadline, double axis, std::uint32_t dead_man) {
-                const GateLimits made{speed, stale, deadline, axis, dead_man};
-                raise_if(check(made, ForceLimits{}));
-                new (self) GateLimits(made);
-              },
-              nb::arg("max_speed") = gate.max_speed, nb::arg("stale") = gate.stale, nb::arg("deadline") = gate.deadline,
-              nb::arg("axis_tolerance") = gate.axis_tolerance, nb::arg("dead_man") = gate.dead_man,
-              "max_speed: m/s between two readings. stale: longest time without a new reading, s. deadline: longest\n"
-              "time between ticks, s. axis_tolerance: deviation of the axis' length from 1. dead_man: buttons\n"
-              "(bits), one of which must be held; 0 for none. Raises ConfigurationError.")
-          .def_ro("max_speed", &GateLimits::max_speed, "m/s")
-          .def_ro("stale", &GateLimits::stale, "s")
-          .def_ro("deadline", &GateLimits::deadline, "s")
-          .def_ro("axis_tolerance", &GateLimits::axis_tolerance)
-          .def_ro("dead_man", &GateLimits::dead_man);
-  def_value(gate_class, {"max_speed", "stale", "deadline", "axis_tolerance", "dead_man"});
-
-  const ForceLimits limits;
-  auto limits_class =
-      nb::class_<ForceLimits>(m, "ForceLimits", "Limits on the force sent to a device.")
-          .def(
-              "__init__",
-              [](ForceLimits* self, double max, double continuous, double time, double ramp, double warm) {
-                const ForceLimits made{max, continuous, time, ramp, warm};
-                raise_if(check(GateLimits{}, made));
-                new (self) ForceLimits(made);
-              },
-              nb::arg("max_force") = limits.max_force, nb::arg("continuous_force") = limits.continuous_force,
-              nb::arg("continuous_time") = limits.continuous_time, nb::arg("ramp_time") = limits.ramp_time,
-              nb::arg("warm_motor") = limits.warm_motor,
-              "max_force: norm, N. continuous_force: N rms over any continuous_time (s). ramp_time: time from zero\n"
-              "to full force after arming, s. warm_motor: motor temperature (0 to 1) above which the force\n"
-              "decreases, to zero at 1. Raises ConfigurationError.")
-          .def_ro("max_force", &ForceLimits::max_force, "N")
-          .def_ro("continuous_force", &ForceLimits::continuous_force, "N rms")
-          .def_ro("continuous_time", &ForceLimits::continuous_time, "s")
-          .def_ro("ramp_time", &ForceLimits::ramp_time, "s")
-          .def_ro("warm_motor", &ForceLimits::warm_motor);
-  def_value(limits_class, {"max_force", "continuous_force", "continuous_time", "ramp_time", "warm_motor"});
+  def_struct<gate_rows>(m, {"GateLimits", "Limits that a device reading must meet before the model uses it.", "gate"});
+  def_struct<limit_fields>(m, {"ForceLimits", "Limits on the force sent to a device.", "limits"});
 
   m.def("lasting_force", &lasting_force, nb::arg("limits"),
         "The largest force that the limits permit for any time, N.");
@@ -96,71 +70,19 @@ void bind_limits(nb::module_& m) {
       nb::arg("scene"), nb::arg("limits"),
       "How much of the model's force a device with these limits gives: the scene's own number, or the automatic one.");
 
-  const Placement nowhere;
-  auto placement =
-      nb::class_<Placement>(
-          m, "Placement",
-          "The device's pose in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis.")
-          .def(
-              "__init__",
-              [](Placement* self, const std::array<double, 4>& rotation, const Triple& offset, double scale,
-                 double tip_offset) {
-                const Placement made{rotation, offset, scale, tip_offset};
-                raise_if(check(made));
-                new (self) Placement(made);
-              },
-              nb::arg("rotation") = nowhere.rotation, nb::arg("offset") = nowhere.offset,
-              nb::arg("scale") = nowhere.scale, nb::arg("tip_offset") = nowhere.tip_offset,
-              "rotation: quaternion w, x, y, z, of any length but 0. offset: m. scale: scene metres per device\n"
-              "metre. tip_offset: distance from the device's point to the tip along the stylus, m. Raises\n"
-              "ConfigurationError.")
-          .def_prop_ro(
-              "rotation",
-              [](const Placement& p) {
-                return nb::make_tuple(p.rotation[0], p.rotation[1], p.rotation[2], p.rotation[3]);
-              },
-              nb::sig("def rotation(self) -> tuple[float, float, float, float]"))
-          .def_prop_ro(
-              "offset", [](const Placement& p) { return as_tuple(p.offset); },
-              nb::sig("def offset(self) -> tuple[float, float, float]"), "m")
-          .def_ro("scale", &Placement::scale)
-          .def_ro("tip_offset", &Placement::tip_offset, "m");
-  def_value(placement, {"rotation", "offset", "scale", "tip_offset"});
+  def_struct<placement_rows>(
+      m,
+      {"Placement",
+       "The device's pose in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis."},
+      [](const Placement& made, std::vector<Problem>& problems) { problems = check(made); });
 
-  auto info = nb::class_<DeviceInfo>(m, "DeviceInfo", "What a device says of itself; NaN where it does not say.");
-  def_repr(info,
-           "DeviceInfo(backend={0.backend!r}, model={0.model!r}, serial={0.serial!r}, "
-           "has_orientation={0.has_orientation}, button_count={0.button_count}, max_force={0.max_force}, "
-           "continuous_force={0.continuous_force}, max_stiffness={0.max_stiffness}, encoder_step={0.encoder_step}, "
-           "rate={0.rate})");
-  info.def(
-          "__init__",
-          [](DeviceInfo* self, const std::string& backend, const std::string& model, const std::string& serial,
-             bool has_orientation, unsigned button_count, double max_force, double continuous_force,
-             double max_stiffness, double encoder_step, double rate) {
-            new (self) DeviceInfo{backend,      model,     serial,           has_orientation,
-                                  button_count, max_force, continuous_force, max_stiffness,
-                                  encoder_step, rate};
-          },
-          nb::kw_only(), nb::arg("backend") = "", nb::arg("model") = "", nb::arg("serial") = "",
-          nb::arg("has_orientation") = false, nb::arg("button_count") = 0, nb::arg("max_force") = unknown,
-          nb::arg("continuous_force") = unknown, nb::arg("max_stiffness") = unknown, nb::arg("encoder_step") = unknown,
-          nb::arg("rate") = unknown,
-          nb::sig("def __init__(self, *, backend: str = '', model: str = '', serial: str = '', "
-                  "has_orientation: bool = False, button_count: int = 0, max_force: float = ..., "
-                  "continuous_force: float = ..., max_stiffness: float = ..., encoder_step: float = ..., "
-                  "rate: float = ...) -> None"),
-          "Forces in N, max_stiffness in N/m, encoder_step in m, rate in Hz. An omitted value is unknown.")
-      .def_ro("backend", &DeviceInfo::backend)
-      .def_ro("model", &DeviceInfo::model)
-      .def_ro("serial", &DeviceInfo::serial)
-      .def_ro("has_orientation", &DeviceInfo::has_orientation)
-      .def_ro("button_count", &DeviceInfo::button_count)
-      .def_ro("max_force", &DeviceInfo::max_force, "Peak force, N")
-      .def_ro("continuous_force", &DeviceInfo::continuous_force, "Continuous force, N")
-      .def_ro("max_stiffness", &DeviceInfo::max_stiffness, "N/m")
-      .def_ro("encoder_step", &DeviceInfo::encoder_step, "m")
-      .def_ro("rate", &DeviceInfo::rate, "Servo rate, Hz");
+  auto info = StructOf<device_rows>::define(m,
+                                            {.name = "DeviceInfo",
+                                             .doc = "What a device says of itself; NaN where it does not say.",
+                                             .raises = "An omitted value is unknown.",
+                                             .needed = 0},
+                                            unchecked, nb::kw_only());
+  def_repr(info, StructOf<device_rows>::names());
 }
 
 }  // namespace punctura::bindings

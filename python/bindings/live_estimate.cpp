@@ -1,6 +1,9 @@
 // core/punctura/lab/trace/live_estimate.hpp: slope, friction and punctures while a run goes on.
 #include "punctura/lab/trace/live_estimate.hpp"
 
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
 #include "bindings.hpp"
 #include "state.hpp"
 #include "ticks.hpp"
@@ -49,12 +52,12 @@ const char* word(LivePhase phase) {
   return phase == LivePhase::free ? "free" : phase == LivePhase::rise ? "rise" : "behind";
 }
 
-nb::object pair(const LiveValue& v) {
-  if (std::isnan(v.value)) return nb::none();
-  return nb::make_tuple(v.value, v.error);
+std::optional<std::tuple<double, double>> pair(const LiveValue& v) {
+  if (std::isnan(v.value)) return std::nullopt;
+  return std::tuple(v.value, v.error);
 }
 
-nb::dict run(GivenLiveEstimate& self, const nb::object& depths, const nb::object& forces, double period) {
+Columns run(GivenLiveEstimate& self, const ArrayLike& depths, const ArrayLike& forces, double period) {
   const Input depth = input_1d(depths, "depth"), force = input_1d(forces, "force");
   const std::size_t n = depth.size();
   if (force.size() != n) throw nb::value_error("force must have one value for each depth");
@@ -91,6 +94,7 @@ void bind_live_estimate(nb::module_& m) {
       "and force alone, tick by tick. The standard deviations are those of noise about a straight line: where\n"
       "the force is curved, that of a slope is some 1.5 times too large. docs/live-estimate.md");
   def_state(live);
+  def_reset(live, "Forgets everything.");
   def_repr(live, "<LiveEstimate: {0.phase}, {0.punctures} punctures>");
   live.def(
           "__init__",
@@ -109,13 +113,6 @@ void bind_live_estimate(nb::module_& m) {
           "step: way over which ticks are averaged, m. rise_memory: the slope is that of about this way, m. Raises\n"
           "ConfigurationError.")
       .def(
-          "reset",
-          [](GivenLiveEstimate& self) {
-            self.must_rest();
-            self.reset();
-          },
-          "Forgets everything.")
-      .def(
           "step",
           [](GivenLiveEstimate& self, double depth, double force, double period) {
             self.must_rest();
@@ -126,8 +123,6 @@ void bind_live_estimate(nb::module_& m) {
           "depth: m, growing inwards. force: N, against the insertion. period: s. A sample that is no finite number\n"
           "is left out and counted in `ignored`.")
       .def("run", &run, nb::arg("depth"), nb::arg("force"), nb::arg("period"),
-           nb::sig("def run(self, depth: numpy.typing.ArrayLike, force: numpy.typing.ArrayLike, period: float) -> "
-                   "dict[str, numpy.typing.NDArray[typing.Any]]"),
            "Makes n ticks. Returns phase (0 free, 1 rise, 2 behind), slope, slope_error, plateau, plateau_error and\n"
            "punctured after each, (n,); NaN while unknown. Errors are standard deviations. Raises ValueError.")
       .def_prop_ro("phase",
@@ -136,11 +131,9 @@ void bind_live_estimate(nb::module_& m) {
                    "\"free\": no force yet. \"rise\": a membrane in contact. \"behind\": behind a puncture.")
       .def_prop_ro("slope",
                    resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return pair(s.reading().slope); }),
-                   nb::sig("def slope(self) -> tuple[float, float] | None"),
                    "Slope of the force of the membrane in contact and its standard deviation, N/m")
       .def_prop_ro("plateau",
                    resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return pair(s.reading().plateau); }),
-                   nb::sig("def plateau(self) -> tuple[float, float] | None"),
                    "Friction behind the last puncture and its standard deviation, N")
       .def_prop_ro("punctures",
                    resting<GivenLiveEstimate>([](const GivenLiveEstimate& s) { return s.reading().punctures; }),

@@ -4,7 +4,7 @@
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "law_bounds.hpp"
-#include "value.hpp"
+#include "struct.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -16,27 +16,6 @@ void tell_radians(std::vector<Problem>& problems) {
     problem.reason += ". If you meant " + decimal_text(problem.value, 6) + " degrees, write " +
                       decimal_text(problem.value * std::numbers::pi / 180, 4) + ": the angle is in rad";
   }
-}
-
-Needle make_needle(double diameter, double tip_angle) {
-  const Needle made{diameter, tip_angle};
-  std::vector<Problem> problems;
-  check(made, "needle", problems);
-  tell_radians(problems);
-  raise_if(problems);
-  warn_unusual("needle.diameter", diameter);
-  return made;
-}
-
-Membrane make_membrane(double stiffness, double precompression, double friction, double thickness) {
-  const Membrane made{stiffness, precompression, friction, thickness};
-  std::vector<Problem> problems;
-  check(made, "membrane", problems);
-  raise_if(problems);
-  warn_unusual("membrane.stiffness", stiffness);
-  warn_unusual("membrane.precompression", precompression);
-  warn_unusual("membrane.thickness", thickness);
-  return made;
 }
 
 GivenThinLaw make_thin_law(Needle needle, Membrane membrane) {
@@ -73,32 +52,13 @@ nb::class_<L> bind_law(nb::module_& m, const char* name, const char* doc) {
 }  // namespace
 
 void bind_model(nb::module_& m) {
-  auto needle = nb::class_<Needle>(m, "Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1")
-                    .def_static(
-                        "unchecked", [](double diameter, double tip_angle) { return Needle{diameter, tip_angle}; },
-                        nb::arg("diameter"), nb::arg("tip_angle"),
-                        "Creates a needle without checks. The scene that uses it checks all values.")
-                    .def_ro("diameter", &Needle::diameter, "w, m")
-                    .def_ro("tip_angle", &Needle::tip_angle, "theta, rad");
-  def_init(needle, &make_needle, nb::arg("diameter"), nb::arg("tip_angle"), "Raises ConfigurationError.");
-  def_value(needle, {"diameter", "tip_angle"});
-
-  auto membrane =
-      nb::class_<Membrane>(m, "Membrane", "A membrane that grips the needle with dry friction. K06 section 2")
-          .def_static(
-              "unchecked",
-              [](double stiffness, double precompression, double friction, double thickness) {
-                return Membrane{stiffness, precompression, friction, thickness};
-              },
-              nb::arg("stiffness"), nb::arg("precompression"), nb::arg("friction"), nb::arg("thickness"),
-              "Creates a membrane without checks. The scene that uses it checks all values.")
-          .def_ro("stiffness", &Membrane::stiffness, "kappa, N/m")
-          .def_ro("precompression", &Membrane::precompression, "c, N")
-          .def_ro("friction", &Membrane::friction, "mu, -")
-          .def_ro("thickness", &Membrane::thickness, "H, m; 0 selects the thin law");
-  def_init(membrane, &make_membrane, nb::arg("stiffness"), nb::arg("precompression"), nb::arg("friction"),
-           nb::arg("thickness"), "Raises ConfigurationError.");
-  def_value(membrane, {"stiffness", "precompression", "friction", "thickness"});
+  def_struct<needle_fields>(m, {"Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1", "needle"},
+                            [](const Needle& made, std::vector<Problem>& problems) {
+                              check(made, "needle", problems);
+                              tell_radians(problems);
+                            });
+  def_struct<membrane_fields>(
+      m, {"Membrane", "A membrane that grips the needle with dry friction. K06 section 2", "membrane"});
 
   auto thin = bind_law<GivenThinLaw>(m, "ThinLaw",
                                      "Law of an infinitely thin membrane, crossed along its normal. K06 (13)(14)");

@@ -6,8 +6,8 @@
 #include "punctura/lab/plant/stroke_ends.hpp"
 #include "punctura/scene/check.hpp"
 #include "state.hpp"
+#include "struct.hpp"
 #include "ticks.hpp"
-#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -33,94 +33,26 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
 }  // namespace
 
 void bind_plant(nb::module_& m) {
-  const DeviceDynamics device;
-  auto plant =
-      nb::class_<DeviceDynamics>(m, "Plant", "A simulated haptic device. Defaults: data sheet of the PHANTOM Omni.")
-          .def(
-              "__init__",
-              [](DeviceDynamics* self, double mass, double friction, double encoder_step, double max_force) {
-                std::vector<Problem> problems;
-                const DeviceDynamics made{mass, friction, encoder_step, max_force};
-                check_fields(plant_fields, made, "plant", problems);
-                raise_if(problems);
-                new (self) DeviceDynamics(made);
-              },
-              nb::arg("mass") = device.mass, nb::arg("friction") = device.friction,
-              nb::arg("encoder_step") = device.encoder_step, nb::arg("max_force") = device.max_force,
-              "mass: apparent mass, kg. friction: dry friction, N. encoder_step: m, 0 for an ideal sensor.\n"
-              "max_force: saturation, N.")
-          .def_ro("mass", &DeviceDynamics::mass, "kg")
-          .def_ro("friction", &DeviceDynamics::friction, "N")
-          .def_ro("encoder_step", &DeviceDynamics::encoder_step, "m")
-          .def_ro("max_force", &DeviceDynamics::max_force, "N");
-  def_value(plant, {"mass", "friction", "encoder_step", "max_force"});
-
-  const Hand hand;
-  auto hand_class =
-      nb::class_<Hand>(
-          m, "Hand",
+  def_struct<plant_fields>(m,
+                           {"Plant", "A simulated haptic device. Defaults: data sheet of the PHANTOM Omni.", "plant"});
+  def_struct<hand_fields>(
+      m, {"Hand",
           "A simulated hand that holds the stylus: a mass, with spring and damper to the desired motion. Values are\n"
-          "illustrative.")
-          .def(
-              "__init__",
-              [](Hand* self, double mass, double damping, double stiffness, double tremor_rms, double tremor_hz) {
-                std::vector<Problem> problems;
-                const Hand made{mass, damping, stiffness, tremor_rms, tremor_hz};
-                check_fields(hand_fields, made, "hand", problems);
-                raise_if(problems);
-                new (self) Hand(made);
-              },
-              nb::arg("mass") = hand.mass, nb::arg("damping") = hand.damping, nb::arg("stiffness") = hand.stiffness,
-              nb::arg("tremor_rms") = hand.tremor_rms, nb::arg("tremor_hz") = hand.tremor_hz,
-              "mass: kg. damping: N s/m. stiffness: N/m. tremor_rms: m along each axis, 0 for none. tremor_hz:\n"
-              "tremor frequency, Hz.")
-          .def_ro("mass", &Hand::mass, "kg")
-          .def_ro("damping", &Hand::damping, "N s/m")
-          .def_ro("stiffness", &Hand::stiffness, "N/m")
-          .def_ro("tremor_rms", &Hand::tremor_rms, "m")
-          .def_ro("tremor_hz", &Hand::tremor_hz, "Hz");
-  def_value(hand_class, {"mass", "damping", "stiffness", "tremor_rms", "tremor_hz"});
-
-  const Strokes strokes{};
-  auto strokes_class = nb::class_<Strokes>(
-      m, "Strokes", "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.");
-  strokes_class
-      .def(
-          "__init__",
-          [](Strokes* self, const Triple& start, const Triple& end, std::size_t count, double duration, double rest,
-             double variation) {
-            std::vector<Problem> problems;
-            const Strokes made{to_vector(start), to_vector(end), count, duration, rest, variation};
-            for (const auto& [name, point] : {std::pair{"strokes.start", start}, std::pair{"strokes.end", end}})
-              for (std::size_t i = 0; i < 3; ++i)
-                if (!is_place(point[i]))
-                  problems.push_back(
-                      {name + ("[" + std::to_string(i) + "]"), point[i], "must be finite and within 1000 km"});
-            check_fields(strokes_fields, made, "strokes", problems);
-            raise_if(problems);
-            new (self) Strokes(made);
-          },
-          nb::arg("start"), nb::arg("end"), nb::arg("count") = strokes.count, nb::arg("duration") = strokes.duration,
-          nb::arg("rest") = strokes.rest, nb::arg("variation") = strokes.variation,
-          "start, end: m. count: number of strokes there and back. duration: of one way, s. rest: at both ends, s.\n"
-          "variation: relative standard deviation of depth and duration between strokes. Raises ConfigurationError.")
+          "illustrative.",
+          "hand"});
+  def_struct<strokes_rows>(
+      m,
+      {.name = "Strokes",
+       .doc = "Repeated minimum-jerk strokes from start to end and back, with a rest at both ends.",
+       .path = "strokes",
+       .needed = 2},
+      [](const Strokes& made, std::vector<Problem>& problems) { check(made, problems); })
       .def(
           "duration_for", [](const Strokes& s, std::uint64_t seed) { return StrokesMotion(s, seed).duration(); },
-          nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.")
-      .def_prop_ro(
-          "start", [](const Strokes& s) { return as_tuple(to_array(s.start)); },
-          nb::sig("def start(self) -> tuple[float, float, float]"), "m")
-      .def_prop_ro(
-          "end", [](const Strokes& s) { return as_tuple(to_array(s.end)); },
-          nb::sig("def end(self) -> tuple[float, float, float]"), "m")
-      .def_ro("count", &Strokes::count, "Number of strokes there and back")
-      .def_ro("duration", &Strokes::duration, "One way, s")
-      .def_ro("rest", &Strokes::rest, "s")
-      .def_ro("variation", &Strokes::variation, "Relative standard deviation of depth and duration");
-  def_value(strokes_class, {"start", "end", "count", "duration", "rest", "variation"});
+          nb::arg("seed") = 0, "Total duration of all strokes for a random seed, s.");
 
   const auto pair = [](const Vector3d& a, const Vector3d& b) {
-    return nb::make_tuple(as_tuple(to_array(a)), as_tuple(to_array(b)));
+    return std::make_tuple(std::tuple_cat(to_array(a)), std::tuple_cat(to_array(b)));
   };
   m.def(
       "stroke_ends",
@@ -130,7 +62,6 @@ void bind_plant(nb::module_& m) {
         return pair(ends.start, ends.end);
       },
       nb::arg("scene"),
-      nb::sig("def stroke_ends(scene: Scene) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
       "The two ends of the hand's strokes along the first membrane's normal, m: in front of all membranes, and behind\n"
       "the last.\n\n"
       "The far end adds the lag of the tip under the membranes' largest forces F: F / K of each in the coupling, and\n"
@@ -143,7 +74,6 @@ void bind_plant(nb::module_& m) {
         return pair(pose.position, pose.axis);
       },
       nb::arg("scene"),
-      nb::sig("def resting_pose(scene: Scene) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
       "The first pose of a hand, position (m) and axis: in front of all membranes, pointing into the first.\n\n"
       "In a scene with blood, the needle is close to the skin, at 30 degrees to it, and points to the middle of the\n"
       "scene: the slanted tip of an upright needle is longer than a vein is wide. Raises ConfigurationError.");

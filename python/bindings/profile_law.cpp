@@ -37,7 +37,7 @@ GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> 
 }
 
 /// The weights of the knots at all depths, of shape depths.shape + (knots,).
-nb::object weights(const GivenProfileLaw& law, const nb::object& depths) {
+Floats weights(const GivenProfileLaw& law, const ArrayLike& depths) {
   const Input depth = input(depths, "depth");
   const std::size_t n = depth.size(), knots = law.depth.size();
   std::vector<double> all(n * knots);
@@ -71,10 +71,7 @@ void bind_profile_law(nb::module_& m) {
            "obliquity: beta, rad. Raises ConfigurationError.");
   def_value(law, {"depth", "lower", "upper", "thickness", "obliquity"});
   const auto knots = [&law](const char* name, auto member, const char* doc) {
-    const std::string signature = std::string("def ") + name + "(self) -> tuple[float, ...]";
-    law.def_prop_ro(
-        name, [member](const GivenProfileLaw& l) { return nb::tuple(nb::cast(l.*member)); }, nb::sig(signature.c_str()),
-        doc);
+    law.def_prop_ro(name, [member](const GivenProfileLaw& l) { return shown_tuple(l.*member); }, doc);
   };
   knots("depth", &GivenProfileLaw::depth, "Of the knots, m");
   knots("lower", &GivenProfileLaw::lower, "phi_I at the knots, N");
@@ -82,7 +79,6 @@ void bind_profile_law(nb::module_& m) {
   law.def_prop_ro("thickness", &GivenProfileLaw::thickness, "H, m; 0 gives the profile itself")
       .def_ro("obliquity", &GivenProfileLaw::obliquity, "beta, rad")
       .def("weights", &weights, nb::arg("depth"),
-           nb::sig("def weights(self, depth: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
            "The weights of the knots at depths (m) of any shape: bounds(depth)[0] is weights(depth) @ lower.\n\n"
            "Returns an array of shape depth.shape + (knots,). K06 (16)");
 }

@@ -5,11 +5,8 @@
 #include "bindings.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"
-#include "punctura/servo/record.hpp"
-#include "state.hpp"
-#include "tick_columns.hpp"
-#include "ticks.hpp"
-#include "value.hpp"
+#include "run_in_space.hpp"
+#include "struct.hpp"
 
 #include <nanobind/stl/variant.h>
 
@@ -39,6 +36,9 @@ class LineProxy : public OneThread {
     return std::visit(function, proxy_);
   }
 
+  void reset() {
+    visit([](auto& proxy) { proxy.reset(); });
+  }
   double step(double depth) {
     must_rest();
     check_places(&depth, 1, "p");
@@ -49,7 +49,7 @@ class LineProxy : public OneThread {
     check_places(&depth, 1, "p");
     return visit([&](auto proxy) { return proxy.step(depth); });
   }
-  nb::object run(const nb::object& depths, const nb::object& progress) {
+  TicksObject run(const ArrayLike& depths, const ProgressArgument& progress) {
     SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
     columns.reserve(nb::len_hint(depths), 1);  // before the depths are copied
     const Input p = input_1d(depths, "p");
@@ -75,7 +75,7 @@ class LineProxy : public OneThread {
   bool load(std::span<const std::byte> state) {
     return visit([&](auto& proxy) { return load_state(proxy, state); });
   }
-  nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, name_of(solver_)); }
+  nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, Word(solver_)); }
 
  private:
   template <typename... Given>
@@ -107,35 +107,26 @@ struct SpaceProxy : Proxy3d<ThickLaw>, OneThread {
   std::vector<std::byte> save() const { return save_state<Proxy3d<ThickLaw>>(*this); }
   bool load(std::span<const std::byte> state) { return load_state<Proxy3d<ThickLaw>>(*this, state); }
   nb::tuple arguments() const {
-    return nb::make_tuple(needle, membrane, point, inward_normal, coupling, period, name_of(solver()));
+    return nb::make_tuple(needle, membrane, point, inward_normal, coupling, period, Word(solver()));
   }
 };
 
-Coupling make_coupling(double stiffness, double damping) {
-  const Coupling made{stiffness, damping};
-  std::vector<Problem> problems;
-  check(made, problems);
-  raise_if(problems);
-  warn_unusual("coupling.stiffness", stiffness);
-  return made;
-}
-
-LineProxy make_line(GivenLaw law, Coupling coupling, double period, std::string solver) {
+LineProxy make_line(GivenLaw law, Coupling coupling, double period, const Word<Solver>& solver) {
   std::vector<Problem> problems;
   check_coupling(coupling, period, problems);
   raise_if(problems);
-  return {std::move(law), coupling, period, solver_from(solver)};
+  return {std::move(law), coupling, period, solver.at("solver")};
 }
 
 SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling,
-                      double period, std::string solver) {
+                      double period, const Word<Solver>& solver) {
   auto problems = problems_of(needle, membrane);
   check_coupling(coupling, period, problems);
   if (!to_vector(point).allFinite())
     problems.push_back({"point", detail::value_to_show(point), "must be three finite numbers"});
   raise_if(problems);
   return {{ThickLaw(needle, membrane), to_vector(point), unit(inward_normal, "inward_normal"), coupling, period,
-           solver_from(solver)},
+           solver.at("solver")},
           {},
           needle,
           membrane,
@@ -145,28 +136,12 @@ SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inw
           period};
 }
 
-nb::object run_3d(SpaceProxy& proxy, const nb::object& positions, const nb::object& axis, const nb::object& progress) {
-  SnapshotColumns columns(
-      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"});
-  columns.reserve(nb::len_hint(positions), 1);  // before the positions are copied
-  const Input p = points(positions, "p");
-  const std::size_t n = p.shape(0);
-  const Rows axes(input(axis, "axis"), n, "axis");
-  check_places(p.data(), 3 * n, "p", 3);
-  axes.check("axis");
-  Snapshot record{};
-  record.membrane_count = 1;
-  const OneThread::Running running(proxy);
-  const auto tick = [&](std::size_t i) {
-    const Vector3d position(p.data() + 3 * i), axis_now = axes[i].stableNormalized();
-    record.sample.position = to_array(position);
-    record.sample.axis = to_array(axis_now);
-    record.force = to_array(proxy.step(position, axis_now));
-    record.membranes[0] = record_of(proxy.tick());
-    columns.add(record);
-  };
-  make_ticks(n, tick, progress);
-  return columns.to_ticks(3, true);
+TicksObject run_3d(SpaceProxy& proxy, const ArrayLike& positions, const ArrayLike& axis,
+                   const ProgressArgument& progress) {
+  return run_in_space(
+      proxy, proxy,
+      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"}, positions,
+      axis, progress);
 }
 
 }  // namespace
@@ -180,37 +155,20 @@ void bind_proxy(nb::module_& m) {
       .value("barred", Phase::barred,
              "Inside without having entered from the front. No force until the tip has been outside, in front.");
 
-  auto coupling =
-      nb::class_<Coupling>(m, "Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)")
-          .def_static(
-              "unchecked", [](double stiffness, double damping) { return Coupling{stiffness, damping}; },
-              nb::arg("stiffness"), nb::arg("damping"),
-              "Creates a coupling without checks. The scene that uses it checks all values.")
-          .def_ro("stiffness", &Coupling::stiffness, "K, N/m")
-          .def_ro("damping", &Coupling::damping, "B, N s/m");
-  def_init(coupling, &make_coupling, nb::arg("stiffness"), nb::arg("damping"), "Raises ConfigurationError.");
-  def_value(coupling, {"stiffness", "damping"});
+  def_struct<coupling_fields>(
+      m, {"Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)", "coupling"});
 
   auto line =
       nb::class_<LineProxy>(m, "Proxy1d", nb::is_final(), "The proxy on the axis of the needle. K06 section 3.1, (33)");
   def_init(line, &make_line, nb::arg("law"), nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
-           nb::sig("def __init__(self, law: ThinLaw | ThickLaw | ProfileLaw | TissueLaw, coupling: Coupling, period: "
-                   "float, solver: typing.Literal['exact', 'paper'] = ...) -> None"),
            "period: T, s. solver: \"exact\" or \"paper\". Raises ConfigurationError.");
   def_state(line);
+  def_reset(line);
   def_repr(line, "<Proxy1d {0.phase.name}: depth {0.depth:g} m, force {0.force:g} N>");
-  line.def(
-          "reset",
-          [](LineProxy& p) {
-            p.must_rest();
-            p.visit([](auto& x) { x.reset(); });
-          },
-          "Resets to the state before the first tick.")
-      .def("step", &LineProxy::step, nb::arg("p"),
+  line.def("step", &LineProxy::step, nb::arg("p"),
            "Makes one tick. p: depth of the device, m. Returns the force on the device, N. Raises ValueError.")
       .def("peek", &LineProxy::peek, nb::arg("p"), "The force of step(p), without changing the state.")
       .def("run", &LineProxy::run, nb::arg("p"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, *, progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on. p (n,): depths, m.\n\n"
            "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.\n"
            "progress and Ctrl-C: see Insertion.run.")
@@ -233,20 +191,14 @@ void bind_proxy(nb::module_& m) {
       nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
   def_init(space, &make_space, nb::arg("needle"), nb::arg("membrane"), nb::arg("point"), nb::arg("inward_normal"),
            nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
-           nb::sig("def __init__(self, needle: Needle, membrane: Membrane, point: _Vector, inward_normal: _Vector, "
-                   "coupling: Coupling, period: float, solver: typing.Literal['exact', 'paper'] = ...) -> None"),
            "point: a, any point of the surface, m. inward_normal: direction of any length but 0. period: T, s. Raises\n"
            "ConfigurationError.");
   def_state(space);
+  def_reset(space,
+            "Resets to the state before the first tick. A start inside gives no force until the tip has been "
+            "outside.");
   def_repr(space, "<Proxy3d {0.phase.name}: depth {0.depth:g} m, force {0.force} N>");
   space
-      .def(
-          "reset",
-          [](SpaceProxy& p) {
-            p.must_rest();
-            p.reset();
-          },
-          "Resets to the state before the first tick. A start inside gives no force until the tip has been outside.")
       .def(
           "step",
           [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
@@ -266,8 +218,6 @@ void bind_proxy(nb::module_& m) {
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run_3d, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, *, "
-                   "progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
            "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"

@@ -1,12 +1,12 @@
 // runtime/backends: devices whose readings come from Python, all at once or one by one.
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
 
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura_runtime/backends/fed.hpp"
 #include "punctura_runtime/backends/replay.hpp"
 #include "punctura_runtime/loop/pacer.hpp"
-#include "value.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -36,9 +36,9 @@ os::RealtimeSettings asked(int priority, int processor) {
   return settings;
 }
 
-void make_replay(ReplayDevice* self, const nb::object& positions, const nb::object& axes, double rate,
-                 const nb::object& times, const nb::object& sequences, const nb::object& held, const nb::object& health,
-                 const nb::object& temperatures, DeviceInfo recorded, bool real_time, int priority, int processor) {
+void make_replay(ReplayDevice* self, const ArrayLike& positions, const ArrayLike& axes, double rate,
+                 const ArrayLike& times, const ArrayLike& sequences, const ArrayLike& held, const ArrayLike& health,
+                 const ArrayLike& temperatures, DeviceInfo recorded, bool real_time, int priority, int processor) {
   check_rate(rate);
   const Input position = points(positions, "position");
   const std::size_t n = position.shape(0);
@@ -72,14 +72,14 @@ void make_fed(FedDevice* self, double rate, DeviceInfo info, bool real_time) {
   new (self) FedDevice(std::move(info), real_time);
 }
 
-nb::tuple feed(FedDevice& device, const Triple& position, const Triple& axis, std::uint32_t buttons, bool healthy,
-               double motor_temperature) {
+std::tuple<double, double, double> feed(FedDevice& device, const Triple& position, const Triple& axis,
+                                        std::uint32_t buttons, bool healthy, double motor_temperature) {
   Triple force;
   {
     const WithoutLock release;  // a tick needs no GIL; other threads can run Python meanwhile
     force = device.feed({position, axis, buttons, healthy, motor_temperature});
   }
-  return as_tuple(force);
+  return std::tuple_cat(force);
 }
 
 std::vector<std::string> make_realtime(int priority, int processor) {
@@ -101,16 +101,11 @@ void bind_python_devices(nb::module_& m) {
       "A device that plays a recorded motion: one tick per sample. It ignores the force and ends after the last\n"
       "sample.")
       .def("__init__", &make_replay, nb::arg("position"), nb::arg("axis"), nb::arg("rate"), nb::kw_only(),
-           nb::arg("time").none() = nb::none(), nb::arg("sequence").none() = nb::none(),
-           nb::arg("buttons").none() = nb::none(), nb::arg("healthy").none() = nb::none(),
-           nb::arg("motor_temperature").none() = nb::none(), nb::arg("recorded") = DeviceInfo{},
-           nb::arg("real_time") = true, nb::arg("priority") = os::RealtimeSettings{}.priority,
+           nb::arg("time") = nb::none(), nb::arg("sequence") = nb::none(), nb::arg("buttons") = nb::none(),
+           nb::arg("healthy") = nb::none(), nb::arg("motor_temperature") = nb::none(),
+           nb::arg("recorded") = DeviceInfo{}, nb::arg("real_time") = true,
+           nb::arg("priority") = os::RealtimeSettings{}.priority,
            nb::arg("processor") = os::RealtimeSettings{}.processor,
-           nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, rate: float, *, "
-                   "time: numpy.typing.ArrayLike | None = None, sequence: numpy.typing.ArrayLike | None = None, "
-                   "buttons: numpy.typing.ArrayLike | None = None, healthy: numpy.typing.ArrayLike | None = None, "
-                   "motor_temperature: numpy.typing.ArrayLike | None = None, recorded: DeviceInfo = ..., "
-                   "real_time: bool = True, priority: int = 80, processor: int = -1) -> None"),
            "position (n, 3): m. axis (n, 3) or (3,). rate: samples per second, Hz. time (n,): s, default k / rate;\n"
            "the input gate checks these times, not the timing of the replay. recorded: info of the recorded device,\n"
            "whose ratings limit the force. real_time: False runs as fast as possible. priority: real-time scheduling\n"
@@ -127,7 +122,6 @@ void bind_python_devices(nb::module_& m) {
       .def(
           "__init__", &make_fed, nb::arg("rate"), nb::kw_only(), nb::arg("info") = DeviceInfo{},
           nb::arg("real_time") = true,
-          nb::sig("def __init__(self, rate: float, *, info: DeviceInfo = ..., real_time: bool = True) -> None"),
           "rate: Hz, at which readings will be fed; T is 1 / rate. info: what the device is; its force ratings tighten "
           "the\n"
           "limits. real_time: False takes the k-th reading as if it came at k / rate, for simulations that are not "
@@ -136,8 +130,6 @@ void bind_python_devices(nb::module_& m) {
       .def(
           "feed", &feed, nb::arg("position"), nb::arg("axis") = reading.axis, nb::arg("buttons") = reading.buttons,
           nb::arg("healthy") = reading.healthy, nb::arg("motor_temperature") = reading.motor_temperature,
-          nb::sig("def feed(self, position: _Vector, axis: _Vector = ..., buttons: int = 0, healthy: bool = True, "
-                  "motor_temperature: float = 0.0) -> tuple[float, float, float]"),
           "A reading in, the force for the device out, N; zero while no loop runs. position: m. axis: unit direction "
           "in\n"
           "which the needle points. buttons: bits. healthy: False is a fault of the device. motor_temperature: 0 to 1.")

@@ -38,7 +38,7 @@ class Replay : public OneThread {
     step_->guard().set_spent(spent);
   }
 
-  nb::object run(const nb::object& ticks, const std::vector<std::vector<Scene>>& scenes) {
+  TicksObject run(const Object<"typing.Any">& ticks, const std::vector<std::vector<Scene>>& scenes) {
     const InputColumns given(ticks);
     Snapshot now{};
     std::size_t asked = 0;
@@ -102,7 +102,6 @@ void bind_replay(nb::module_& m) {
           "before the run, N^2 s. rivals: of the loop.")
       .def_prop_ro("rate", &Replay::rate, "Hz")
       .def("run", &Replay::run, nb::arg("ticks"), nb::arg("scenes"),
-           nb::sig("def run(self, ticks: typing.Any, scenes: Sequence[Sequence[Scene]]) -> Ticks"),
            "Computes ticks from inputs. ticks: Ticks or a mapping with all input fields. scenes: a list of the taken\n"
            "scenes, in order, for each tick whose commands say that it took a scene.");
 }

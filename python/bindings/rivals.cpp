@@ -1,12 +1,9 @@
 // core/punctura/rivals: force models of other authors, alone, in a scene, and in a simulated hand.
-#include <nanobind/stl/variant.h>
-
 #include "bindings.hpp"
-#include "punctura/lab/plant/experiment.hpp"
+#include "motion.hpp"
 #include "punctura/rivals/rival_insertion.hpp"
-#include "state.hpp"
-#include "tick_columns.hpp"
-#include "ticks.hpp"
+#include "run_in_space.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -54,7 +51,7 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
   return *rival;
 }
 
-nb::dict numbers_of(const AnyRival& rival) {
+Object<"dict[str, float]"> numbers_of(const AnyRival& rival) {
   nb::dict all;
   rival.visit([&](const auto& run) {
     for (const auto& number : run.rival.numbers()) all[number.name] = run.rival.*number.value;
@@ -82,7 +79,7 @@ struct Path {
   std::size_t n;
 };
 
-nb::object resistance(const AnyRival& rival, const Path& path) {
+Floats resistance(const AnyRival& rival, const Path& path) {
   std::vector<double> force(path.n);
   rival.visit([&](auto run) {
     run.state = {};
@@ -93,7 +90,7 @@ nb::object resistance(const AnyRival& rival, const Path& path) {
 }
 
 /// load() at each row of a layer that is never punctured; 0 in front of it.
-nb::object loads(const AnyRival& rival, const Path& path) {
+Floats loads(const AnyRival& rival, const Path& path) {
   std::vector<double> load(path.n);
   rival.visit([&](auto run) {
     if constexpr (Punctures<decltype(run.rival)>) {
@@ -111,7 +108,7 @@ nb::object loads(const AnyRival& rival, const Path& path) {
   return to_numpy(std::move(load), {path.n});
 }
 
-nb::list kinds() {
+Object<"list[dict[str, typing.Any]]"> kinds() {
   nb::list all;
   AnyRival::for_each_kind([&]<typename R>(const R& rival) {
     nb::list numbers;
@@ -152,128 +149,80 @@ struct SceneRivals : OneThread {
   std::vector<AnyRival> rivals;
   RivalInsertion insertion;
 
+  void reset() { insertion.reset(); }
   std::vector<std::byte> save() const { return save_state(insertion); }
   bool load(std::span<const std::byte> state) { return load_state(insertion, state); }
   nb::tuple arguments() const { return nb::make_tuple(scene, rivals); }
 };
 
-nb::object run(SceneRivals& self, const nb::object& positions, const nb::object& axis, const nb::object& progress) {
-  const auto count = static_cast<std::uint32_t>(self.insertion.size());
-  SnapshotColumns columns({"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"});
-  columns.reserve(nb::len_hint(positions), count);  // before the positions are copied
-  const Input p = points(positions, "p");
-  const std::size_t n = p.shape(0);
-  const Rows axes(input(axis, "axis"), n, "axis");
-  check_places(p.data(), 3 * n, "p", 3);
-  if (self.insertion.uses_axis()) axes.check("axis");
-  Snapshot record{};
-  record.membrane_count = count;
-  const OneThread::Running running(self);
-  const auto tick = [&](std::size_t i) {
-    const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
-    record.sample.position = to_array(position);
-    record.sample.axis = to_array(direction);
-    record.force = to_array(self.insertion.step(position, direction));
-    record.tip = to_array(self.insertion.tip());
-    for (std::size_t j = 0; j < count; ++j) record.membranes[j] = record_of(self.insertion.tick(j));
-    columns.add(record);
-  };
-  make_ticks(n, tick, progress);
-  return columns.to_ticks();
+TicksObject run(SceneRivals& self, const ArrayLike& positions, const ArrayLike& axis,
+                const ProgressArgument& progress) {
+  return run_in_space(self.insertion, self,
+                      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"},
+                      positions, axis, progress);
 }
 
-using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
-
-nb::object experiment(const Scene& scene, const std::vector<AnyRival>& rivals, const AnyMotion& motion, double duration,
-                      const DeviceDynamics& plant, const Hand& hand, std::uint64_t seed, const nb::object& progress) {
+TicksObject experiment(const Scene& scene, const std::vector<AnyRival>& rivals, const AnyMotion& motion,
+                       double duration, const DeviceDynamics& plant, const Hand& hand, std::uint64_t seed,
+                       const ProgressArgument& progress) {
   built(scene, rivals);  // raises all problems
-  if (!(duration >= 0 && duration <= 1e9)) throw nb::value_error("duration must be from 0 to 1e9 s");
-  const auto n = static_cast<std::size_t>(std::llround(duration * scene.servo.rate));
+  const double rate = scene.servo.rate;
+  const std::size_t n = ticks_in(duration, rate);
   const Vector3d axis = unit(scene.membranes.front().inward_normal, "axis");
-  const auto made = [&](auto laid_out) {
-    using Motion = decltype(laid_out);
-    Experiment<Motion, RivalServoStep> one(build_rivals(scene, rivals), 1 / scene.servo.rate, std::move(laid_out), axis,
-                                           plant, hand, seed);
-    ExperimentColumns columns;
-    columns.reserve(n, scene.membranes.size());
-    make_ticks(
-        n,
-        [&](std::size_t) {
-          const Snapshot& snapshot = one.step();
-          columns.add(snapshot, one.extra());
-        },
-        progress);
-    return columns.to_ticks();
-  };
-  if (const auto* strokes = std::get_if<Strokes>(&motion)) return made(StrokesMotion(*strokes, seed));
-  if (const auto* recorded = std::get_if<RecordedMotion>(&motion)) return made(*recorded);
-  return made(std::get<Target>(motion));
+  return std::visit(
+      [&]<typename Motion>(Motion motion) {
+        Experiment<Motion, RivalServoStep> made(build_rivals(scene, rivals), 1 / rate, std::move(motion), axis, plant,
+                                                hand, seed);
+        return run_experiment(made, n, progress);
+      },
+      laid_out(motion, seed));
 }
 
 void bind_rival(nb::module_& m) {
   auto rival = nb::class_<AnyRival>(m, "Rival", nb::is_final(),
                                     "A force model of another author, with its numbers. docs/rivals.md");
+  def_fields(rival, {"name", "numbers"});
   rival
       .def(
           "__init__",
-          [](AnyRival* self, const std::string& name, const nb::object& numbers) {
+          [](AnyRival* self, const std::string& name, const Object<"dict[str, float]">& numbers) {
             nb::dict given;
             given.attr("update")(numbers);
             new (self) AnyRival(made(name, given));
           },
           nb::arg("name"), nb::arg("numbers") = nb::dict(),
-          nb::sig("def __init__(self, name: str, numbers: dict[str, float] = ...) -> None"),
           "numbers: by name, SI; a number that is not given has its default. Raises ConfigurationError.")
       .def_prop_ro(
           "name",
           [](const AnyRival& r) { return r.visit([](const auto& run) { return std::string(run.rival.name); }); })
-      .def_prop_ro("numbers", &numbers_of, nb::sig("def numbers(self) -> dict[str, float]"), "By name, SI")
+      .def_prop_ro("numbers", &numbers_of, "By name, SI")
       .def("__repr__",
            [](nb::handle self) {
              return "Rival(" + nb::cast<std::string>(nb::repr(self.attr("name"))) + ", " +
                     nb::cast<std::string>(nb::repr(self.attr("numbers"))) + ")";
            })
-      .def(
-          "__eq__",
-          [](const AnyRival& self, nb::handle other) {
-            return nb::isinstance<AnyRival>(other) &&
-                   nb::cast<nb::object>(nb::cast(self).attr("name")).equal(other.attr("name")) &&
-                   numbers_of(self).equal(other.attr("numbers"));
-          },
-          nb::sig("def __eq__(self, other: object, /) -> bool"))
       .def("__hash__",
            [](nb::handle self) {
              return nb::hash(nb::make_tuple(self.attr("name"), nb::tuple(self.attr("numbers").attr("items")())));
            })
       .def(
-          "__reduce__",
-          [](nb::handle self) {
-            return nb::make_tuple(self.type(), nb::make_tuple(self.attr("name"), self.attr("numbers")));
-          },
-          nb::sig("def __reduce__(self) -> tuple[type, tuple[typing.Any, ...]]"))
-      .def(
           "resistance",
-          [](const AnyRival& self, const nb::object& depth, const nb::object& velocity, const nb::object& period) {
+          [](const AnyRival& self, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
             return resistance(self, Path(depth, velocity, period));
           },
           nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
-          nb::sig("def resistance(self, depth: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, "
-                  "period: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
           "The force against the insertion (n,), N, of an untouched layer.\n\n"
           "depth (n,): m below the surface. velocity (n,): m/s, inwards. period (n,) or a number: s since the row\n"
           "before. Raises ValueError.")
       .def(
           "loads",
-          [](const AnyRival& self, const nb::object& depth, const nb::object& velocity, const nb::object& period) {
+          [](const AnyRival& self, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
             return loads(self, Path(depth, velocity, period));
           },
           nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
-          nb::sig("def loads(self, depth: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, "
-                  "period: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
           "What is compared with the number `puncture`, (n,), if the layer is never punctured. Arguments as of\n"
           "resistance(). Raises ValueError if the rival has no puncture.");
-  m.def("rival_kinds", &kinds, nb::sig("def rival_kinds() -> list[dict[str, typing.Any]]"),
-        "Name, title, source and numbers of each rival.");
+  m.def("rival_kinds", &kinds, "Name, title, source and numbers of each rival.");
 }
 
 }  // namespace
@@ -285,6 +234,7 @@ void bind_rivals(nb::module_& m) {
       "A needle through all membranes of a scene, with a rival in place of K06's law in each. The same conditioning\n"
       "of the position. Gives the model's force without safety limits.");
   def_state(scene);
+  def_reset(scene);
   def_repr(scene, "<RivalInsertion in {0.scene.name!r}>");
   scene
       .def(
@@ -293,30 +243,16 @@ void bind_rivals(nb::module_& m) {
             new (self) SceneRivals(given, rivals);
           },
           nb::arg("scene"), nb::arg("rivals"),
-          nb::sig("def __init__(self, scene: Scene, rivals: Sequence[Rival]) -> None"),
           "rivals: one, or one for each membrane. Raises ConfigurationError or ValueError.")
       .def_ro("scene", &SceneRivals::scene)
       .def_prop_ro("rivals", [](const SceneRivals& self) { return self.rivals; })
-      .def(
-          "reset",
-          [](SceneRivals& self) {
-            self.must_rest();
-            self.insertion.reset();
-          },
-          "Resets to the state before the first tick.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           nb::sig("def run(self, p: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike, *, "
-                   "progress: Progress = None) -> Ticks"),
            "Makes n ticks from the present state on. Arguments as of Insertion.run().");
-  m.def(
-      "rival_experiment", &experiment, nb::arg("scene"), nb::arg("rivals"), nb::arg("motion"), nb::arg("duration"),
-      nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("seed") = 0, nb::kw_only(),
-      nb::arg("progress") = nb::none(),
-      nb::sig("def rival_experiment(scene: Scene, rivals: Sequence[Rival], motion: Strokes | RecordedMotion | Target, "
-              "duration: float, plant: Plant = ..., hand: Hand = ..., seed: int = 0, *, "
-              "progress: Progress = None) -> Ticks"),
-      "A simulated operator at a simulated device, as in Experiment, with rivals in place of K06's law: the same\n"
-      "gate, limits, device and hand. duration: s. Raises ConfigurationError or ValueError.");
+  m.def("rival_experiment", &experiment, nb::arg("scene"), nb::arg("rivals"), nb::arg("motion"), nb::arg("duration"),
+        nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("seed") = 0, nb::kw_only(),
+        nb::arg("progress") = nb::none(),
+        "A simulated operator at a simulated device, as in Experiment, with rivals in place of K06's law: the same\n"
+        "gate, limits, device and hand. duration: s. Raises ConfigurationError or ValueError.");
 }
 
 }  // namespace punctura::bindings

@@ -2,37 +2,27 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/variant.h>
 
 #include <limits>
 
 #include "bindings.hpp"
 #include "model_of.hpp"
+#include "motion.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/motor_rest.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "state.hpp"
-#include "tick_columns.hpp"
-#include "ticks.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
-
-using AnyMotion = std::variant<Strokes, RecordedMotion, Target>;
-
-SimulatedDevice::Motion laid_out(const AnyMotion& motion, std::uint64_t seed) {
-  if (const auto* strokes = std::get_if<Strokes>(&motion)) return StrokesMotion(*strokes, seed);
-  if (const auto* recorded = std::get_if<RecordedMotion>(&motion)) return *recorded;
-  return std::get<Target>(motion);
-}
 
 /// The snapshots of a running loop, for one reader.
 struct Listener : OneThread {
   explicit Listener(SnapshotRing* of) : ring(of) {}
   SnapshotRing* ring;
 
-  nb::object read(std::optional<std::size_t> limit) {
+  TicksObject read(std::optional<std::size_t> limit) {
     SnapshotColumns columns;
     const Running running(*this);
     {
@@ -57,7 +47,7 @@ nb::dict quantiles(const Histogram::Counts& counts, std::uint64_t largest) {
   return d;
 }
 
-nb::dict report(const ServoLoop& loop) {
+Object<"LoopReport"> report(const ServoLoop& loop) {
   const LoopReport r = loop.report();
   nb::dict d;
   d["ticks"] = r.ticks;
@@ -67,7 +57,7 @@ nb::dict report(const ServoLoop& loop) {
   return d;
 }
 
-nb::object as_ticks(const std::vector<Snapshot>& snapshots) {
+TicksObject as_ticks(const std::vector<Snapshot>& snapshots) {
   SnapshotColumns columns;
   for (const Snapshot& s : snapshots) columns.add(s);
   return columns.to_ticks();
@@ -167,7 +157,6 @@ void bind_runtime(nb::module_& m) {
   def_repr(listener, "<Listener with room for {0.capacity} ticks, {0.lost} lost>");
   listener
       .def("read", &Listener::read, nb::arg("limit") = nb::none(),
-           nb::sig("def read(self, limit: int | None = None) -> Ticks"),
            "Removes and returns the oldest snapshots. limit: maximum number; None for all that are in the ring now.")
       .def_prop_ro(
           "lost", [](const Listener& l) { return l.ring->lost(); },
@@ -245,7 +234,6 @@ void bind_runtime(nb::module_& m) {
             return Listener(&loop.listen(capacity.value_or(loop.room())));
           },
           nb::arg("capacity") = nb::none(), nb::keep_alive<0, 1>(),
-          nb::sig("def listen(self, capacity: int | None = None) -> Listener"),
           "Returns a Listener for the snapshots of all ticks. Call it before start().\n\n"
           "capacity: number of snapshots of the present scene that the ring can hold; default `room`. It is reduced\n"
           "to 32 MB without an error; the listener's `capacity` has the actual number. Snapshots that do not fit\n"
@@ -271,15 +259,14 @@ void bind_runtime(nb::module_& m) {
                    "The force limits in effect, device ratings included.")
       .def_prop_ro("force_scale", &ServoLoop::force_scale,
                    "How much of the model's force the device gives in the running scene, before the limits.")
-      .def("report", &report, nb::sig("def report(self) -> LoopReport"),
+      .def("report", &report,
            "Timing statistics of all runs so far: ticks, late, and for period and compute the quantiles p50, p99,\n"
            "p99_9, the largest (s) and the counts by bin.")
       .def(
-          "latest", [](ServoLoop& loop) { return as_ticks({loop.latest()}); }, nb::sig("def latest(self) -> Ticks"),
+          "latest", [](ServoLoop& loop) { return as_ticks({loop.latest()}); },
           "The last tick, one row; all zeros before the first tick.")
       .def(
           "fault_history", [](ServoLoop& loop) { return as_ticks(loop.fault_history()); },
-          nb::sig("def fault_history(self) -> Ticks"),
           "The last ticks up to the latched fault; empty if there is none.");
 
   // Without this, a loop still held by a daemon thread or an interactive session would leave the last force on its

@@ -10,68 +10,34 @@
 #include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
+#include "punctura/scene/keys.hpp"
 #include "punctura/scene/usual.hpp"
 #include "punctura/scene/values.hpp"
-#include "value.hpp"
+#include "struct.hpp"
+
+namespace punctura::bindings {
+enum class Automatic { automatic };
+}
+template <>
+inline constexpr std::array<std::string_view, 1> punctura::words_of<punctura::bindings::Automatic>{
+    punctura::automatic_word};
 
 namespace punctura::bindings {
 namespace {
 
-Direction direction_from(const std::string& name) {
-  if (name == "stylus") return Direction::stylus;
-  if (name == "motion") return Direction::motion;
-  raise_word("needle.direction", name, "must be \"stylus\" or \"motion\"");
-}
+using ScaleOrWord = std::variant<double, Word<Automatic>>;
 
-Conditioning conditioning_from(const std::string& name) {
-  if (name == "low_pass") return Conditioning::low_pass;
-  if (name == "line_fit") return Conditioning::line_fit;
-  raise_word("servo.conditioning", name, "must be \"low_pass\" or \"line_fit\"");
-}
-
-const char* name_of(Conditioning c) { return c == Conditioning::line_fit ? "line_fit" : "low_pass"; }
-
-ServoSettings unchecked_servo(double rate, double low_pass, std::string solver, std::string conditioning,
-                              double encoder_step, double sub_steps) {
-  return {rate,         low_pass, solver_from(solver, "servo.solver"), conditioning_from(conditioning),
-          encoder_step, sub_steps};
-}
-
-ServoSettings make_servo(double rate, double low_pass, std::string solver, std::string conditioning,
-                         double encoder_step, double sub_steps) {
-  const auto made =
-      unchecked_servo(rate, low_pass, std::move(solver), std::move(conditioning), encoder_step, sub_steps);
-  std::vector<Problem> problems;
-  check(made, problems);
-  raise_if(problems);
-  return made;
-}
-
-using ScaleOrWord = std::variant<double, std::string>;
-
-DisplaySettings unchecked_display(const ScaleOrWord& force_scale) {
-  if (const auto* number = std::get_if<double>(&force_scale)) return {*number, false};
-  const auto& word = std::get<std::string>(force_scale);
-  if (word != "automatic") raise_word("display.force_scale", word, "must be a number or \"automatic\"");
-  return {DisplaySettings{}.force_scale, true};
-}
-
-DisplaySettings make_display(ScaleOrWord force_scale) {
-  const DisplaySettings made = unchecked_display(force_scale);
+DisplaySettings make_display(const ScaleOrWord& force_scale) {
+  DisplaySettings made;
+  if (const auto* number = std::get_if<double>(&force_scale))
+    made.force_scale = *number;
+  else if (std::get<Word<Automatic>>(force_scale).text == automatic_word)
+    made.automatic = true;
+  else
+    raise_word("display.force_scale", std::get<Word<Automatic>>(force_scale).text, "must be a number or \"automatic\"");
   std::vector<Problem> problems;
   check_fields(display_fields, made, "display", problems);
   raise_if(problems);
-  return made;
-}
-
-SyringeSettings make_settings(Syringe syringe, Coupling thumb) { return {syringe, thumb}; }
-
-Scene make_scene(std::string name, Needle needle, Coupling coupling, std::vector<PlacedMembrane> membranes,
-                 ServoSettings servo, std::string direction, DisplaySettings display,
-                 std::optional<SyringeSettings> syringe, std::vector<MaxwellBranch> relaxation) {
-  Scene made{std::move(name),           needle,  coupling, std::move(membranes), servo,
-             direction_from(direction), display, syringe,  std::move(relaxation)};
-  raise_if(check(made));
   return made;
 }
 
@@ -85,10 +51,34 @@ struct SceneField {
   std::string reason;
 };
 
-SceneField make_scene_field(std::string path, double value, std::string symbol, std::string unit, double min,
-                            double max, bool min_open, bool max_open, std::string reason) {
-  return {std::move(path), value, std::move(symbol), std::move(unit), min, max, min_open, max_open, std::move(reason)};
-}
+constexpr std::tuple scene_field_rows{
+    row("path", &SceneField::path, "Path, as in problems: membrane[0].friction."),
+    row("value", &SceneField::value),
+    row("symbol", &SceneField::symbol, "K06's."),
+    row("unit", &SceneField::unit),
+    row("min", &SceneField::min),
+    row("max", &SceneField::max),
+    row("min_open", &SceneField::min_open, "Whether the value must be greater than min."),
+    row("max_open", &SceneField::max_open, "Whether the value must be less than max."),
+    row("reason", &SceneField::reason, "The reason for the bounds."),
+};
+
+constexpr std::tuple syringe_settings_rows{
+    row("syringe", &SyringeSettings::syringe),
+    row("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger."),
+};
+
+constexpr std::tuple scene_rows{
+    scene_name_field,
+    row("needle", &Scene::needle),
+    row("coupling", &Scene::coupling),
+    row("membranes", &Scene::membranes),
+    row("servo", &Scene::servo),
+    direction_field,
+    row("display", &Scene::display),
+    row("syringe", &Scene::syringe, "The syringe on the needle; None without one."),
+    relaxation_field,
+};
 
 std::vector<SceneField> fields_of(const Scene& scene) {
   std::vector<SceneField> all;
@@ -153,122 +143,53 @@ Scene with_values(Scene scene, const nb::dict& values) {
   return scene;
 }
 
-void bind_scene_field(nb::module_& m) {
-  auto field =
-      nb::class_<SceneField>(m, "SceneField", "A number of a scene: its path, its value and its bounds, in SI units.")
-          .def_ro("path", &SceneField::path, "Path, as in problems: membrane[0].friction")
-          .def_ro("value", &SceneField::value)
-          .def_ro("symbol", &SceneField::symbol, "K06's")
-          .def_ro("unit", &SceneField::unit)
-          .def_ro("min", &SceneField::min)
-          .def_ro("max", &SceneField::max)
-          .def_ro("min_open", &SceneField::min_open, "Whether the value must be greater than min")
-          .def_ro("max_open", &SceneField::max_open, "Whether the value must be less than max")
-          .def_ro("reason", &SceneField::reason, "The reason for the bounds");
-  def_init(field, &make_scene_field, nb::arg("path"), nb::arg("value"), nb::arg("symbol"), nb::arg("unit"),
-           nb::arg("min"), nb::arg("max"), nb::arg("min_open"), nb::arg("max_open"), nb::arg("reason"),
-           "Scene.fields() creates these objects.");
-  def_value(field, {"path", "value", "symbol", "unit", "min", "max", "min_open", "max_open", "reason"});
-}
-
 }  // namespace
 
 void bind_scene(nb::module_& m) {
   m.attr("longest_name") = longest_name;
-  auto syringe = nb::class_<SyringeSettings>(m, "SyringeSettings", "The syringe on a scene's needle. docs/syringe.md")
-                     .def_ro("syringe", &SyringeSettings::syringe)
-                     .def_ro("thumb", &SyringeSettings::thumb, "The virtual coupling between thumb and plunger");
-  def_init(syringe, &make_settings, nb::arg("syringe"), nb::arg("thumb") = SyringeSettings{}.thumb,
-           "The scene that uses it checks all values.");
-  def_value(syringe, {"syringe", "thumb"});
-
-  const ServoSettings defaults;
-  auto servo = nb::class_<ServoSettings>(m, "ServoSettings",
-                                         "Rate of the servo loop, position conditioning and solver. K06 section 4")
-                   .def_static("unchecked", &unchecked_servo, nb::arg("rate"), nb::arg("low_pass"), nb::arg("solver"),
-                               nb::arg("conditioning"), nb::arg("encoder_step"), nb::arg("sub_steps"),
-                               "Creates settings without checks of the numbers. The scene that uses them checks all.")
-                   .def_ro("rate", &ServoSettings::rate, "1/T, Hz")
-                   .def_ro("low_pass", &ServoSettings::low_pass, "Cutoff of conditioning \"low_pass\", Hz; 0 is off")
-                   .def_prop_ro(
-                       "solver", [](const ServoSettings& s) { return name_of(s.solver); },
-                       nb::sig("def solver(self) -> typing.Literal['exact', 'paper']"), "\"exact\" or \"paper\"")
-                   .def_prop_ro(
-                       "conditioning", [](const ServoSettings& s) { return name_of(s.conditioning); },
-                       nb::sig("def conditioning(self) -> typing.Literal['low_pass', 'line_fit']"),
-                       "\"low_pass\" or \"line_fit\"")
-                   .def_ro("encoder_step", &ServoSettings::encoder_step,
-                           "Encoder step for conditioning \"line_fit\", m; 0 for an ideal sensor")
-                   .def_ro("sub_steps", &ServoSettings::sub_steps,
-                           "Steps of the model in a tick, a whole number from 1 to 16. docs/pop-time.md");
-  def_init(servo, &make_servo, nb::arg("rate") = defaults.rate, nb::arg("low_pass") = defaults.low_pass,
-           nb::arg("solver") = name_of(defaults.solver), nb::arg("conditioning") = name_of(defaults.conditioning),
-           nb::arg("encoder_step") = defaults.encoder_step, nb::arg("sub_steps") = defaults.sub_steps,
-           nb::sig("def __init__(self, rate: float = ..., low_pass: float = ..., solver: typing.Literal['exact', "
-                   "'paper'] = ..., conditioning: typing.Literal['low_pass', 'line_fit'] = ..., encoder_step: float = "
-                   "..., sub_steps: float = ...) -> None"),
-           "rate: 1/T, Hz. solver: \"exact\" or \"paper\". conditioning: \"low_pass\" is K06's filter with cutoff\n"
-           "low_pass (Hz; 0 is off); \"line_fit\" is for a device with encoders of step encoder_step (m; 0 is off).\n"
-           "sub_steps: steps of the model in a tick, 1 to 16; more find the time of a pop better. Raises\n"
-           "ConfigurationError.");
-  def_value(servo, {"rate", "low_pass", "solver", "conditioning", "encoder_step", "sub_steps"});
+  def_struct<syringe_settings_rows>(m,
+                                    {.name = "SyringeSettings",
+                                     .doc = "The syringe on a scene's needle. docs/syringe.md",
+                                     .raises = "The scene that uses it checks all values.",
+                                     .needed = 1},
+                                    unchecked);
+  def_struct<servo_rows>(
+      m, {"ServoSettings", "Rate of the servo loop, position conditioning and solver. K06 section 4", "servo"},
+      [](const ServoSettings& made, std::vector<Problem>& problems) { check(made, problems); });
 
   auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.")
-                     .def_static("unchecked", &unchecked_display, nb::arg("force_scale"),
-                                 "Creates settings without checks of the number. The scene that uses them checks it.")
                      .def_prop_ro(
                          "force_scale",
                          [](const DisplaySettings& d) {
-                           return d.automatic ? ScaleOrWord("automatic") : ScaleOrWord(d.force_scale);
+                           return d.automatic ? ScaleOrWord(Automatic::automatic) : ScaleOrWord(d.force_scale);
                          },
-                         nb::sig("def force_scale(self) -> float | typing.Literal['automatic']"),
                          "How much of the model's force the device gives: a number, or \"automatic\"");
   def_init(display, &make_display, nb::arg("force_scale") = DisplaySettings{}.force_scale,
-           nb::sig("def __init__(self, force_scale: float | typing.Literal['automatic'] = ...) -> None"),
            "force_scale: how much of the model's force the device gives, greater than 0 and at most 1. \"automatic\"\n"
            "lowers it so that the limits in use never cut the friction along the needle. Raises ConfigurationError.");
   def_value(display, {"force_scale"});
 
-  bind_scene_field(m);
-  auto scene =
-      nb::class_<Scene>(m, "Scene", "All parameters of a run, checked together.")
-          .def_ro("name", &Scene::name)
-          .def_ro("needle", &Scene::needle)
-          .def_ro("coupling", &Scene::coupling)
-          .def_prop_ro(
-              "membranes", [](const Scene& s) { return nb::tuple(nb::cast(s.membranes)); },
-              nb::sig("def membranes(self) -> tuple[PlacedMembrane, ...]"))
-          .def_ro("servo", &Scene::servo)
-          .def_prop_ro(
-              "direction", [](const Scene& s) { return s.direction == Direction::stylus ? "stylus" : "motion"; },
-              nb::sig("def direction(self) -> typing.Literal['stylus', 'motion']"), "\"stylus\" or \"motion\"")
-          .def_ro("display", &Scene::display)
-          .def_ro("syringe", &Scene::syringe, "The syringe on the needle; None without one")
-          .def_prop_ro(
-              "relaxation", [](const Scene& s) { return nb::tuple(nb::cast(s.relaxation)); },
-              nb::sig("def relaxation(self) -> tuple[MaxwellBranch, ...]"),
-              "The branches beside the coupling that relax while the needle rests; empty in K06")
-          .def_prop_ro(
-              "lumen", [](const Scene& s) { return lumen(s); }, nb::sig("def lumen(self) -> tuple[int, int] | None"),
-              "Indices of the two membranes with blood between them; None if there is no blood")
-          .def("fields", &fields_of, nb::sig("def fields(self) -> list[SceneField]"),
-               "All numbers of the scene, each with its path, unit and bounds.")
-          .def("with_values", &with_values, nb::arg("values"),
-               nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
-               "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
-               "ConfigurationError or TypeError.");
-  def_init(
-      scene, &make_scene, nb::arg("name"), nb::arg("needle"), nb::arg("coupling"), nb::arg("membranes"),
-      nb::arg("servo") = defaults, nb::arg("direction") = "stylus", nb::arg("display") = DisplaySettings{},
-      nb::arg("syringe") = nb::none(), nb::arg("relaxation") = nb::make_tuple(),
-      nb::sig("def __init__(self, name: str, needle: Needle, coupling: Coupling, membranes: Sequence[PlacedMembrane], "
-              "servo: ServoSettings = ..., direction: typing.Literal['stylus', 'motion'] = ..., display: "
-              "DisplaySettings = ..., syringe: SyringeSettings | None = ..., relaxation: Sequence[MaxwellBranch] = "
-              "...) -> None"),
-      "direction: needle direction at entry, \"stylus\" (measured) or \"motion\" (the tip's path). relaxation: at\n"
-      "most two branches beside the coupling. Raises ConfigurationError with all problems.");
-  def_value(scene,
-            {"name", "needle", "coupling", "membranes", "servo", "direction", "display", "syringe", "relaxation"});
+  def_struct<scene_field_rows>(m,
+                               {.name = "SceneField",
+                                .doc = "A number of a scene: its path, its value and its bounds, in SI units.",
+                                .raises = "Scene.fields() creates these objects.",
+                                .needed = 9},
+                               unchecked);
+  def_struct<scene_rows>(m,
+                         {.name = "Scene",
+                          .doc = "All parameters of a run, checked together.",
+                          .path = "needle",  // of the direction
+                          .raises = "Raises ConfigurationError with all problems.",
+                          .needed = 4},
+                         [](const Scene& made, std::vector<Problem>& problems) { problems = check(made); })
+      .def_prop_ro(
+          "lumen", [](const Scene& s) { return lumen(s); },
+          "Indices of the two membranes with blood between them; None if there is no blood")
+      .def("fields", &fields_of, "All numbers of the scene, each with its path, unit and bounds.")
+      .def("with_values", &with_values, nb::arg("values"),
+           nb::sig("def with_values(self, values: dict[str, float]) -> Scene"),
+           "A copy with changed numbers, by path, in SI units: {\"membrane[0].friction\": 0.3}. Raises\n"
+           "ConfigurationError or TypeError.");
 
   m.def(
       "unusual", [](const std::string& path, double written, double size) { return unusual(path, written, size); },

@@ -53,10 +53,12 @@ SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, st
                           ticks};
 }
 
-nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict& vary, std::size_t trials,
-                    const nb::object& axis, const DeviceDynamics& plant, const Hand& hand, const nb::object& seeds,
-                    double duration, bool keep_force, const nb::object& threads,
-                    const std::optional<std::string>& instructions, const nb::object& progress) {
+Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
+                   const nb::typed<nb::dict, std::string, Floats>& vary, std::size_t trials,
+                   const Object<"typing.Any">& axis, const DeviceDynamics& plant, const Hand& hand,
+                   const Object<"numpy.typing.NDArray[numpy.uint64]">& seeds, double duration, bool keep_force,
+                   const Object<"int">& threads, const std::optional<std::string>& instructions,
+                   const ProgressArgument& progress) {
   std::vector<Input> kept;
   SceneBatch all{.scene = scene,
                  .motion = motion_of(motion, axis, trials, kept),
@@ -140,22 +142,18 @@ nb::dict run_scenes(const Scene& scene, const nb::object& motion, const nb::dict
 void bind_scene_batch(nb::module_& m) {
   m.def(
       "real_numbers",
-      [](const nb::object& given, const std::string& name) { return real_numbers(given, name.c_str()); },
+      [](const Object<"typing.Any">& given, const std::string& name) -> Floats {
+        return real_numbers(given, name.c_str());
+      },
       nb::arg("given"), nb::arg("name"),
-      nb::sig("def real_numbers(given: typing.Any, name: str) -> numpy.typing.NDArray[numpy.float64]"),
       "The numbers of an argument as float64. Raises TypeError and ValueError, which name the argument.");
   m.def(
       "batch_paths", [](const Scene& scene) { return batch::paths({.scene = scene, .motion = Strokes{}}); },
       nb::arg("scene"), "Paths of the numbers that punctura.batch() can vary, with strokes at a simulated device.");
-  m.def(
-      "run_scenes", &run_scenes, nb::arg("scene"), nb::arg("motion"), nb::arg("vary"), nb::arg("trials"),
-      nb::arg("axis"), nb::arg("plant"), nb::arg("hand"), nb::arg("seeds"), nb::arg("duration"), nb::arg("keep_force"),
-      nb::arg("threads").none(), nb::arg("instructions").none(), nb::arg("progress").none(),
-      nb::sig("def run_scenes(scene: Scene, motion: typing.Any, vary: dict[str, numpy.typing.NDArray[numpy.float64]], "
-              "trials: int, axis: typing.Any, plant: Plant, hand: Hand, "
-              "seeds: numpy.typing.NDArray[numpy.uint64], duration: float, keep_force: bool, threads: int | None, "
-              "instructions: str | None, progress: Progress) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
-      "The runs of punctura.batch(). Raises ConfigurationError, ValueError.");
+  m.def("run_scenes", &run_scenes, nb::arg("scene"), nb::arg("motion"), nb::arg("vary"), nb::arg("trials"),
+        nb::arg("axis"), nb::arg("plant"), nb::arg("hand"), nb::arg("seeds"), nb::arg("duration"),
+        nb::arg("keep_force"), nb::arg("threads").none(), nb::arg("instructions").none(), nb::arg("progress").none(),
+        "The runs of punctura.batch(). Raises ConfigurationError, ValueError.");
 }
 
 }  // namespace punctura::bindings

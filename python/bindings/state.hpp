@@ -71,6 +71,18 @@ inline std::span<const std::byte> as_span(const nb::bytes& state) {
   return {static_cast<const std::byte*>(state.data()), state.size()};
 }
 
+/// T derives from OneThread and has `reset()`.
+template <typename T>
+void def_reset(nb::class_<T>& cls, const char* doc = "Resets to the state before the first tick.") {
+  cls.def(
+      "reset",
+      [](T& self) {
+        self.must_rest();
+        self.reset();
+      },
+      doc);
+}
+
 /// T derives from OneThread and has `save()`, `load(bytes)` and `arguments()`, the tuple of its constructor arguments.
 template <typename T>
 void def_state(nb::class_<T>& cls) {

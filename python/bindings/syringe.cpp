@@ -7,29 +7,12 @@
 #include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
 #include "state.hpp"
-#include "value.hpp"
+#include "struct.hpp"
 
 #include <nanobind/stl/tuple.h>
 
 namespace punctura::bindings {
 namespace {
-
-Syringe make_syringe(double bore, double liquid, double air, double friction, double compliance, double resistance) {
-  const Syringe made{bore, liquid, air, friction, compliance, resistance};
-  std::vector<Problem> problems;
-  check(made, "syringe", problems);
-  raise_if(problems);
-  for (const auto& field : syringe_fields) warn_unusual("syringe." + std::string(field.name), made.*field.member);
-  return made;
-}
-
-Outlet make_outlet(double resistance, double pressure) {
-  const Outlet made{resistance, pressure};
-  std::vector<Problem> problems;
-  check(made, "outlet", problems);
-  raise_if(problems);
-  return made;
-}
 
 /// A plunger that keeps its constructor arguments.
 struct GivenPlunger : Plunger, OneThread {
@@ -77,50 +60,20 @@ Outlet at_opening(const Layers& given, double length) {
 }  // namespace
 
 void bind_syringe(nb::module_& m) {
-  auto syringe =
-      nb::class_<Syringe>(m, "Syringe", "A syringe with liquid, air, or both. docs/syringe.md")
-          .def_static(
-              "unchecked",
-              [](double bore, double liquid, double air, double friction, double compliance, double resistance) {
-                return Syringe{bore, liquid, air, friction, compliance, resistance};
-              },
-              nb::arg("bore"), nb::arg("liquid"), nb::arg("air"), nb::arg("friction"), nb::arg("compliance"),
-              nb::arg("resistance"), "Creates a syringe without checks. The scene that uses it checks all values.")
-          .def_ro("bore", &Syringe::bore, "Inner diameter of the barrel, m")
-          .def_ro("liquid", &Syringe::liquid, "V_w at the start, m^3")
-          .def_ro("air", &Syringe::air, "V_a at the start, at the pressure of the atmosphere, m^3")
-          .def_ro("friction", &Syringe::friction, "F, dry friction of the plunger, N")
-          .def_ro("compliance", &Syringe::compliance, "C of barrel and seal, m^3/Pa")
-          .def_ro("resistance", &Syringe::resistance, "R_c of the cannula for the liquid, Pa s/m^3")
-          .def_prop_ro("area", &Syringe::area, "Area of the plunger, m^2");
-  def_init(syringe, &make_syringe, nb::arg("bore"), nb::arg("liquid"), nb::arg("air"), nb::arg("friction"),
-           nb::arg("compliance"), nb::arg("resistance"), "Raises ConfigurationError.");
-  def_value(syringe, {"bore", "liquid", "air", "friction", "compliance", "resistance"});
-
-  auto outlet = nb::class_<Outlet>(m, "Outlet", "What the opening of a needle leads to. docs/syringe.md")
-                    .def_static(
-                        "unchecked", [](double resistance, double pressure) { return Outlet{resistance, pressure}; },
-                        nb::arg("resistance"), nb::arg("pressure"),
-                        "Creates an outlet without checks. The scene that uses it checks all values.")
-                    .def_ro("resistance", &Outlet::resistance, "R_t for the liquid, Pa s/m^3; 0 in open air")
-                    .def_ro("pressure", &Outlet::pressure, "P_t above that of the atmosphere, Pa");
-  def_init(outlet, &make_outlet, nb::arg("resistance"), nb::arg("pressure") = 0.0, "Raises ConfigurationError.");
-  def_value(outlet, {"resistance", "pressure"});
+  def_struct<syringe_fields>(
+      m, {"Syringe", "A syringe with liquid, air, or both. docs/syringe.md", "syringe"},
+      [](const Syringe& made, std::vector<Problem>& problems) { check(made, "syringe", problems); })
+      .def_prop_ro("area", &Syringe::area, "Area of the plunger, m^2");
+  def_struct<outlet_fields>(m, {"Outlet", "What the opening of a needle leads to. docs/syringe.md", "outlet"});
 
   auto plunger = nb::class_<GivenPlunger>(m, "Plunger", nb::is_final(),
                                           "The plunger of a syringe under the thumb, tick by tick. docs/syringe.md");
   def_init(plunger, &make_plunger, nb::arg("syringe"), nb::arg("coupling"), nb::arg("period"),
            "period: T, s. Raises ConfigurationError.");
   def_state(plunger);
+  def_reset(plunger, "Resets to the full syringe.");
   def_repr(plunger, "<Plunger {0.phase.name}: {0.position:g} m, {0.force:g} N, {0.pressure:g} Pa>");
   plunger
-      .def(
-          "reset",
-          [](GivenPlunger& p) {
-            p.must_rest();
-            p.reset();
-          },
-          "Resets to the full syringe.")
       .def(
           "step",
           [](GivenPlunger& self, double p, const Outlet& outlet) {
@@ -159,7 +112,6 @@ void bind_syringe(nb::module_& m) {
         "Flow resistance of a tube for water at 20 C, Pa s/m^3, by Hagen and Poiseuille. bore, length: m. Raises\n"
         "ValueError.");
   m.def("outlet_at", &at_opening, nb::arg("layers"), nb::arg("length"),
-        nb::sig("def outlet_at(layers: Sequence[tuple[float, float, Outlet, Outlet]], length: float) -> Outlet"),
         "One outlet for the layers beside a needle's opening of this length (m).\n\n"
         "layers, from the front to the back: depth of the point in the membrane (m; 0 outside), length of the\n"
         "needle's path through it (m), the outlet inside it, and that behind it. Raises ValueError.");

@@ -3,8 +3,8 @@
 
 #include "bindings.hpp"
 #include "punctura/lab/plant/experiment_table.hpp"
+#include "struct.hpp"
 #include "tick_store.hpp"
-#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -26,6 +26,19 @@ struct Field {
     const std::string type = dtype == "bool" ? "bool_" : dtype;
     return "def " + name + "(self) -> numpy.typing.NDArray[numpy." + type + "]";
   }
+};
+
+constexpr std::tuple field_rows{
+    row("name", &Field::name, "Name of the attribute of Ticks."),
+    row("column", &Field::column, "Column name in a file: {a} is x, y or z, {i} the membrane's number."),
+    row("unit", &Field::unit, "Unit; empty for numbers without one."),
+    row("says", &Field::says, "Description."),
+    row("dtype", &Field::dtype, "NumPy name of the type."),
+    row("width", &Field::width, "Number of components: 1, or 3 for a vector."),
+    row("per_membrane", &Field::per_membrane, "Whether each membrane has its own value."),
+    row("input", &Field::input, "Whether it is an input, which a replay needs."),
+    row("on_page", &Field::on_page, "Whether the studio's page receives it."),
+    row("words", &Field::words, "The words for its codes; None for plain numbers."),
 };
 
 /// The names of an enumeration's values, by number; None for plain numbers.
@@ -52,6 +65,8 @@ std::vector<Field> fields() {
   return all;
 }
 
+using Dict = nb::typed<nb::dict, std::string, Object<"numpy.typing.NDArray[typing.Any]">>;
+
 /// The arrays of punctura.Ticks. The Python class adds the methods that do not need the core.
 struct TickArrays {
   nb::dict columns;
@@ -67,18 +82,12 @@ struct TickArrays {
 }  // namespace
 
 void bind_tick_table(nb::module_& m) {
-  auto field = nb::class_<Field>(m, "TickField", "One field of a tick, from the core's table.");
-  field.def_ro("name", &Field::name, "Name of the attribute of Ticks")
-      .def_ro("column", &Field::column, "Column name in a file: {a} is x, y or z, {i} the membrane's number")
-      .def_ro("unit", &Field::unit, "Unit; empty for numbers without one")
-      .def_ro("says", &Field::says, "Description")
-      .def_ro("dtype", &Field::dtype, "NumPy name of the type")
-      .def_ro("width", &Field::width, "Number of components: 1, or 3 for a vector")
-      .def_ro("per_membrane", &Field::per_membrane, "Whether each membrane has its own value")
-      .def_ro("input", &Field::input, "Whether it is an input, which a replay needs")
-      .def_ro("on_page", &Field::on_page, "Whether the studio's page receives it")
-      .def_ro("words", &Field::words, "The words for its codes; None for plain numbers");
-  def_value(field, {"name", "column", "unit", "says", "dtype", "width", "per_membrane", "input", "on_page", "words"});
+  def_struct<field_rows>(m,
+                         {.name = "TickField",
+                          .doc = "One field of a tick, from the core's table.",
+                          .raises = "tick_fields() creates these objects.",
+                          .needed = 10},
+                         unchecked);
 
   const auto table = fields();
   m.def("tick_fields", &fields, "All fields of a tick, in the order of a file's columns.");
@@ -87,12 +96,8 @@ void bind_tick_table(nb::module_& m) {
       m, "TickArrays",
       "The columns of punctura.Ticks by name: n ticks, m membranes. A missing field raises AttributeError.");
   def_repr(arrays, "TickArrays({0.columns})");
-  arrays
-      .def(nb::init<nb::dict>(), nb::arg("columns"),
-           nb::sig("def __init__(self, columns: dict[str, numpy.typing.NDArray[typing.Any]]) -> None"))
-      .def_prop_ro(
-          "columns", [](const TickArrays& self) { return self.columns; },
-          nb::sig("def columns(self) -> dict[str, numpy.typing.NDArray[typing.Any]]"), "The arrays by name.");
+  arrays.def(nb::init<Dict>(), nb::arg("columns"))
+      .def_prop_ro("columns", [](const TickArrays& self) { return Dict(self.columns); }, "The arrays by name.");
   for (const Field& f : table) {
     const std::string signature = f.signature(), doc = f.doc();
     arrays.def_prop_ro(

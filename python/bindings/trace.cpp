@@ -1,10 +1,14 @@
 // core/punctura/lab/trace: the force along a measured motion, with exact derivatives.
+#include <nanobind/stl/tuple.h>
+
 #include "bindings.hpp"
 #include "punctura/lab/trace/trace_model.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
 namespace {
+
+using FloatsPair = std::tuple<Floats, Floats>;
 
 struct TraceParameters {
   std::vector<TraceMembrane> membranes;
@@ -25,7 +29,7 @@ TraceParameters parameters_of(const Needle& needle, const nb::object& membranes,
 }
 
 /// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 17).
-nb::tuple pop_depths(const Needle& needle, const nb::object& membranes, const nb::object& coupling) {
+FloatsPair pop_depths(const Needle& needle, const ArrayLike& membranes, const ArrayLike& coupling) {
   const auto [m, c] = parameters_of(needle, membranes, coupling);
   std::vector<double> depths, rows;
   for (const TraceMembrane& membrane : m) {
@@ -33,8 +37,7 @@ nb::tuple pop_depths(const Needle& needle, const nb::object& membranes, const nb
     depths.push_back(pop.value);
     rows.insert(rows.end(), pop.d.begin(), pop.d.end());
   }
-  return nb::make_tuple(to_numpy(std::move(depths), {m.size()}),
-                        to_numpy(std::move(rows), {m.size(), trace_parameters(1)}));
+  return {to_numpy(std::move(depths), {m.size()}), to_numpy(std::move(rows), {m.size(), trace_parameters(1)})};
 }
 
 /// A measured motion, and the needle that made it. It does not change, so that any number of threads can use it.
@@ -53,7 +56,7 @@ class TraceModel {
     return "<TraceModel of " + std::to_string(depth_.size()) + (time_.empty() ? " depths>" : " depths with times>");
   }
 
-  nb::tuple forces(const nb::object& membranes, const nb::object& coupling, bool jacobian) const {
+  FloatsPair forces(const ArrayLike& membranes, const ArrayLike& coupling, bool jacobian) const {
     const auto [m, c] = parameters_of(needle_, membranes, coupling);
     const std::size_t n = depth_.size(), columns = jacobian ? trace_parameters(m.size()) : 0;
     std::vector<double> force(n), rows(n * columns);
@@ -61,7 +64,7 @@ class TraceModel {
       const WithoutLock without;
       trace_forces({needle_, depth_, time_}, m, c, force, rows);
     }
-    return nb::make_tuple(to_numpy(std::move(force), {n}), to_numpy(std::move(rows), {n, columns}));
+    return {to_numpy(std::move(force), {n}), to_numpy(std::move(rows), {n, columns})};
   }
 
  private:
@@ -90,23 +93,15 @@ void bind_trace(nb::module_& m) {
   nb::class_<TraceModel> model(m, "TraceModel",
                                "The model's force along a measured motion, with exact derivatives. It never changes: "
                                "threads may share it.");
-  model.def(nb::init<Needle, const nb::object&, const nb::object&>(), nb::arg("needle"), nb::arg("depth"),
-            nb::arg("time").none() = nb::none(),
-            nb::sig("def __init__(self, needle: Needle, depth: numpy.typing.ArrayLike, "
-                    "time: numpy.typing.ArrayLike | None = None) -> None"),
+  model.def(nb::init<Needle, const ArrayLike&, const ArrayLike&>(), nb::arg("needle"), nb::arg("depth"),
+            nb::arg("time") = nb::none(),
             "depth: of the tip, (n,), m. time: (n,), s, ascending; None if nothing depends on time.");
   model.def("__repr__", &TraceModel::text);
   model.def("forces", &TraceModel::forces, nb::arg("membranes"), nb::arg("coupling"), nb::arg("jacobian") = true,
-            nb::sig("def forces(self, membranes: numpy.typing.ArrayLike, coupling: numpy.typing.ArrayLike, "
-                    "jacobian: bool = True) -> tuple[numpy.typing.NDArray[numpy.float64], "
-                    "numpy.typing.NDArray[numpy.float64]]"),
             "The force that resists insertion (n,), N, and its derivatives (n, 6 + 11 m): by the coupling, then by "
             "each membrane.\n\nmembranes: (m, 11), coupling: (6,), SI, in the order of membrane_names and "
             "coupling_names. Raises ConfigurationError.");
   model.def_static("pop_depths", &pop_depths, nb::arg("needle"), nb::arg("membranes"), nb::arg("coupling"),
-                   nb::sig("def pop_depths(needle: Needle, membranes: numpy.typing.ArrayLike, "
-                           "coupling: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
-                           "numpy.typing.NDArray[numpy.float64]]"),
                    "How far behind each surface the tip of a slow needle is when it pops (m,), m, and the derivatives "
                    "(m, 17): by the coupling, then by the membrane.");
   model.def_prop_ro_static(

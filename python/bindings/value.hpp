@@ -14,31 +14,40 @@ inline nb::tuple field_values(nb::handle self, const std::vector<const char*>& f
   return nb::tuple(list);
 }
 
-/// Defines repr, equality and hash by the fields, and `replace`, which makes a changed, checked copy. Fields are
-/// read-only, because setting one on a temporary copy (scene.membranes[0].membrane.friction = ...) would have no
-/// effect.
+/// Defines repr by the fields: "Needle(diameter=0.001, tip_angle=0.28)".
 template <typename T>
-void def_value(nb::class_<T>& cls, std::vector<const char*> fields) {
-  const auto name = nb::cast<std::string>(cls.attr("__name__"));
-  static const std::string replace_signature = "def replace(self, **changes: typing.Any) -> " + name;
-  cls.def("__repr__", [fields, name](nb::handle self) {
-    std::string text = name + "(";
-    for (const char* field : fields) {
-      if (text.back() != '(') text += ", ";
-      text += std::string(field) + "=" + nb::cast<std::string>(nb::repr(self.attr(field)));
-    }
-    return text + ")";
+void def_repr(nb::class_<T>& cls, const std::vector<const char*>& fields) {
+  cls.def("__repr__", [fields](nb::handle self) {
+    std::string text;
+    for (const char* field : fields)
+      text += (text.empty() ? "" : ", ") + std::string(field) + "=" + nb::repr(self.attr(field)).c_str();
+    return nb::cast<std::string>(self.type().attr("__name__")) + "(" + text + ")";
   });
+}
+
+/// Defines equality and pickling by the fields, which are the arguments of the constructor.
+template <typename T, typename... Options>
+void def_fields(nb::class_<T, Options...>& cls, const std::vector<const char*>& fields) {
   cls.def(
       "__eq__",
       [fields](nb::handle self, nb::handle other) {
         return self.type().is(other.type()) && field_values(self, fields).equal(field_values(other, fields));
       },
       nb::sig("def __eq__(self, other: object, /) -> bool"));
-  cls.def("__hash__", [fields](nb::handle self) { return nb::hash(field_values(self, fields)); });
   cls.def(
       "__reduce__", [fields](nb::handle self) { return nb::make_tuple(self.type(), field_values(self, fields)); },
       nb::sig("def __reduce__(self) -> tuple[type, tuple[typing.Any, ...]]"));
+}
+
+/// Defines repr, equality and hash by the fields, and `replace`, which makes a changed, checked copy. Fields are
+/// read-only, because setting one on a temporary copy (scene.membranes[0].membrane.friction = ...) would have no
+/// effect.
+template <typename T>
+void def_value(nb::class_<T>& cls, const std::vector<const char*>& fields) {
+  def_repr(cls, fields);
+  def_fields(cls, fields);
+  cls.def("__hash__", [fields](nb::handle self) { return nb::hash(field_values(self, fields)); });
+  const auto name = nb::cast<std::string>(cls.attr("__name__"));
   cls.def(
       "replace",
       [fields](nb::handle self, const nb::kwargs& changes) {
@@ -47,9 +56,13 @@ void def_value(nb::class_<T>& cls, std::vector<const char*> fields) {
         arguments.update(changes);
         return self.type()(**arguments);
       },
-      nb::sig(replace_signature.c_str()), "A checked copy with some fields changed.");
+      nb::sig(("def replace(self, **changes: typing.Any) -> " + name).c_str()),
+      "A checked copy with some fields changed.");
 }
 
-inline nb::tuple as_tuple(const Triple& v) { return nb::make_tuple(v[0], v[1], v[2]); }
+template <typename Entry>
+nb::typed<nb::tuple, Entry, nb::ellipsis> shown_tuple(const std::vector<Entry>& entries) {
+  return nb::tuple(nb::cast(entries));
+}
 
 }  // namespace punctura::bindings

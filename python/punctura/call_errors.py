@@ -60,7 +60,8 @@ def _parameters(args: ast.arguments) -> dict[str, tuple[str, bool]]:
 
 
 def _text(argument: ast.arg) -> str:
-    return ast.unparse(argument.annotation).replace("punctura._core.", "") if argument.annotation else "object"
+    text = ast.unparse(argument.annotation) if argument.annotation else "object"
+    return re.sub(r"punctura\._core\.|collections\.abc\.", "", text)
 
 
 def _assigned(

@@ -30,6 +30,9 @@ struct Range {
   }
 };
 
+inline constexpr Range greater_than_0{0, no_bound, true, true, "must be greater than 0"};
+inline constexpr Range at_least_0{0, no_bound, false, true, "must be 0 or more"};
+
 /// A unit of files: the end of a key, as in thickness_mm, its name, and its size in SI: digits times 10^exponent.
 struct FileUnit {
   std::string_view suffix{}, name{}, digits = "1";

@@ -107,7 +107,7 @@ inline constexpr auto tissue_rows_of = std::tuple{
       "Of a measured grip: openings (m) and grips (N).", {}, {}, {}, "grip"}, &T::grip_table},
     FieldOf<T, Scalar>{{"tip_length", "X", "m", {0, no_bound, false, true, "must be 0 (w / tan theta) or more"},
       "Length of the tip along the needle; 0 is diameter / tan(tip angle).", in_unit("mm")}, &T::tip_length},
-    FieldOf<T, Scalar>{{"tail_length", "", "m", {0, no_bound, false, true, "must be 0 or more"},
+    FieldOf<T, Scalar>{{"tail_length", "", "m", at_least_0,
       "The shaft's friction falls on this length behind the tip.", in_unit("mm")}, &T::tail_length},
     FieldOf<T, Scalar>{{"tail_floor", "", "-", {0, 1, false, false, "must be from 0 to 1"},
       "The part of the shaft's friction that is left behind the tail; 1 is no tail."}, &T::tail_floor},

@@ -27,7 +27,7 @@ inline std::string line_of(const Problem& p) {
 
 // clang-format off
 inline constexpr FieldOf<Needle> needle_fields[] = {
-    {{"diameter", "w", "m", {0, no_bound, true, true, "must be greater than 0"},
+    {{"diameter", "w", "m", greater_than_0,
       "Outer diameter of the shaft.", in_unit("mm"), {1e-5, 0.05}}, &Needle::diameter},
     {{"tip_angle", "theta", "rad",
       {0, std::numbers::pi / 2, true, true, "must be between 0 and pi/2: a blunt needle does not enter, K06 (7)"},

@@ -62,7 +62,7 @@ inline constexpr FieldOf<Coupling> thumb_fields[] = {
     {{"thumb_stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the plunger hangs on it"},
       "Spring of the virtual coupling between thumb and plunger.", in_unit("N_per_mm"), {5, 1e5}},
       &Coupling::stiffness},
-    {{"thumb_damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more"},
+    {{"thumb_damping", "B", "N s/m", at_least_0,
       "Damper of this coupling.", in_unit("Ns_per_mm")}, &Coupling::damping},
 };
 

@@ -49,18 +49,18 @@ inline double tube_resistance(double bore, double length) noexcept {
 
 // clang-format off
 inline constexpr FieldOf<Syringe> syringe_fields[] = {
-    {{"bore", "d", "m", {0, no_bound, true, true, "must be greater than 0"},
+    {{"bore", "d", "m", greater_than_0,
       "Inner diameter of the barrel.", in_unit("mm"), {1e-3, 0.1}}, &Syringe::bore},
-    {{"liquid", "V_w", "m^3", {0, no_bound, false, true, "must be 0 or more"},
+    {{"liquid", "V_w", "m^3", at_least_0,
       "Volume of liquid at the start.", in_unit("mL"), {1e-8, 3e-4}}, &Syringe::liquid},
-    {{"air", "V_a", "m^3", {0, no_bound, false, true, "must be 0 or more"},
+    {{"air", "V_a", "m^3", at_least_0,
       "Volume of air at the start, at the pressure of the atmosphere.", in_unit("mL"), {1e-9, 3e-4}}, &Syringe::air},
-    {{"friction", "F", "N", {0, no_bound, false, true, "must be 0 or more"},
+    {{"friction", "F", "N", at_least_0,
       "Dry friction of the plunger.", in_unit("N"), {1e-3, 100}}, &Syringe::friction},
     {{"compliance", "C", "m^3/Pa",
       {0, no_bound, true, true, "must be greater than 0: a rigid barrel has no single pressure"},
       "By how much pressure widens barrel and seal.", in_unit("mL_per_kPa"), {1e-15, 2e-10}}, &Syringe::compliance},
-    {{"resistance", "R_c", "Pa s/m^3", {0, no_bound, true, true, "must be greater than 0"},
+    {{"resistance", "R_c", "Pa s/m^3", greater_than_0,
       "Flow resistance of the cannula for the liquid.", in_unit("kPa_s_per_mL"), {1e7, 1e13}}, &Syringe::resistance},
 };
 // clang-format on

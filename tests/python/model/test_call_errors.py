@@ -41,11 +41,11 @@ FRICTION = "membrane[0].friction"
         (lambda: SCENE.replace(membranes=None), "membranes must be a list of PlacedMembrane, not NoneType."),
         (
             lambda: pn.Proxy1d(LINE, SCENE.coupling, 1e-3, solver=1),
-            "solver must be 'exact' or 'paper', not int. It takes (law: ThinLaw | ThickLaw | ProfileLaw | TissueLaw, "
-            "coupling: Coupling, period: float, solver: 'exact' | 'paper' (optional))",
+            "solver must be 'paper' or 'exact', not int. It takes (law: ThinLaw | ThickLaw | ProfileLaw | TissueLaw, "
+            "coupling: Coupling, period: float, solver: 'paper' | 'exact' (optional))",
         ),
         (lambda: core.tube_resistance(bore=1e-3, lenght=1), "tube_resistance(): there is no argument lenght; did you"),
-        (lambda: core.Needle.unchecked(1e-3), "Needle.unchecked(): tip_angle is missing."),
+        (lambda: pn.Needle(1e-3), "Needle(): tip_angle is missing."),
         (
             lambda: pn.ThinLaw(SCENE.needle, MEMBRANE).bounds(deth=0),
             "there is no argument deth; did you mean depth? It takes (",

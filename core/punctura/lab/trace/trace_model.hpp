@@ -63,8 +63,7 @@ inline std::vector<Problem> problems_of_trace(const Needle& needle, std::span<co
                                               const TraceCoupling& coupling) {
   std::vector<Problem> problems;
   check(needle, "needle", problems);
-  constexpr Range any{}, positive{0, no_bound, true, true, "must be greater than 0"},
-      not_negative{0, no_bound, false, true, "must be 0 or more"};
+  constexpr Range any{};
   const auto check_one = [&](const Range& range, std::string_view name, double value, const std::string& path) {
     check_field({name, "", "", range}, value, path, problems);
   };
@@ -78,7 +77,7 @@ inline std::vector<Problem> problems_of_trace(const Needle& needle, std::span<co
     check(tissue, path, problems);  // a search may pass curves that chords follow badly: no check_curve()
   }
   for (std::size_t i = 0; i < coupling.size(); ++i)
-    check_one(i == 0 || i == 3 || i == 5 ? positive : not_negative, trace_coupling_names[i], coupling[i], "");
+    check_one(i == 0 || i == 3 || i == 5 ? greater_than_0 : at_least_0, trace_coupling_names[i], coupling[i], "");
   return problems;
 }
 

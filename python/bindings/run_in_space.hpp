@@ -1,0 +1,52 @@
+// Many ticks of a model in space, along positions.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "bindings.hpp"
+#include "punctura/servo/record.hpp"
+#include "state.hpp"
+#include "tick_columns.hpp"
+#include "ticks.hpp"
+
+namespace punctura::bindings {
+
+/// Makes n ticks. model: of one membrane, or of a scene. object: which has the model. fields: those that Ticks has.
+template <typename Model>
+TicksObject run_in_space(Model& model, OneThread& object, std::initializer_list<std::string_view> fields,
+                         const ArrayLike& positions, const ArrayLike& axis, const ProgressArgument& progress) {
+  constexpr bool has_scene = requires { model.tick(0); };
+  Snapshot record{};
+  bool uses_axis = true;
+  if constexpr (has_scene) uses_axis = model.uses_axis();
+  if constexpr (has_scene)
+    record.membrane_count = static_cast<std::uint32_t>(model.size());
+  else
+    record.membrane_count = 1;
+  SnapshotColumns columns(fields);
+  columns.reserve(nb::len_hint(positions), record.membrane_count);  // before the positions are copied
+  const Input p = points(positions, "p");
+  const std::size_t n = p.shape(0);
+  const Rows axes(input(axis, "axis"), n, "axis");
+  check_places(p.data(), 3 * n, "p", 3);
+  if (uses_axis) axes.check("axis");
+  const OneThread::Running running(object);
+  const auto tick = [&](std::size_t i) {
+    const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
+    record.sample.position = to_array(position);
+    record.sample.axis = to_array(direction);
+    record.force = to_array(model.step(position, direction));
+    if constexpr (has_scene) {
+      record.tip = to_array(model.tip());
+      for (std::size_t j = 0; j < model.size(); ++j) record.membranes[j] = record_of(model.tick(j));
+    } else {
+      record.membranes[0] = record_of(model.tick());
+    }
+    columns.add(record);
+  };
+  make_ticks(n, tick, progress);
+  return columns.to_ticks(3, !has_scene);
+}
+
+}  // namespace punctura::bindings
