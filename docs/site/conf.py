@@ -17,7 +17,15 @@ html_title = f"Punctura {release}"
 
 extensions = ["myst_nb", "sphinx.ext.autodoc"]
 root_doc = "index"
-include_patterns = ["*.md", "docs/*.md", "docs/notebooks/*.md", "examples/README.md", "reference/**", "gallery/*"]
+include_patterns = [
+    "*.md",
+    "docs/*.md",
+    "docs/decisions/*.md",
+    "docs/notebooks/*.md",
+    "examples/README.md",
+    "reference/**",
+    "gallery/*",
+]
 exclude_patterns = ["capi/**", "core/**", "runtime/**", "python/**"]
 source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
 
@@ -62,9 +70,5 @@ def setup(app: Any) -> None:
     ) -> tuple[str, str | None] | None:
         return (short(arguments), result and short(result)) if arguments else None
 
-    def skip(app: Any, what: str, name: str, item: object, *others: Any) -> bool | None:
-        return True if name == "unchecked" else None  # for what builds a whole scene at once
-
     app.connect("autodoc-process-docstring", docstring)
     app.connect("autodoc-process-signature", signature)
-    app.connect("autodoc-skip-member", skip)

@@ -11,7 +11,10 @@ namespace {
 
 using Call = PyObject* (*)(PyObject*, PyObject* const*, std::size_t, PyObject*);
 
-/// How a function of nanobind begins. hook() compares it with what the function itself tells.
+/// How a function of nanobind begins. nanobind promises no such thing, and nothing that it promises is as fast:
+/// docs/decisions/calls-of-the-core.md. hook() compares this with what the function itself tells, so another layout
+/// would lose the plain words, not a call; with another version, look at nb_func in nanobind's nb_internals.h.
+static_assert(NB_VERSION_MAJOR == 3 && NB_VERSION_MINOR == 1);
 struct Function {
   PyObject_VAR_HEAD Call call;
 };
