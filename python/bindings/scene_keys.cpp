@@ -74,9 +74,11 @@ nb::dict scene_values(const Scene& scene) {
 }  // namespace
 
 void bind_scene_keys(nb::module_& m) {
-  nb::class_<SceneKey>(m, "SceneKey", "A key of a scene file, from the core's tables. Bounds are in SI units.")
-      .def_prop_ro(
-          "table", [](const SceneKey& k) { return std::string(k.table); }, "The table that has it; \"\" is the file")
+  auto key =
+      nb::class_<SceneKey>(m, "SceneKey", "A key of a scene file, from the core's tables. Bounds are in SI units.");
+  def_repr(key, "<SceneKey {0.key} of [{0.table}]>");
+  key.def_prop_ro(
+         "table", [](const SceneKey& k) { return std::string(k.table); }, "The table that has it; \"\" is the file")
       .def_ro("key", &SceneKey::key)
       .def_ro("name", &SceneKey::name, "In the core; a column has [] in place of the row: \"profile[].depth\"")
       .def_prop_ro(
