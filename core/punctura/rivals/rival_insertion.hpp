@@ -48,6 +48,7 @@ inline std::optional<RivalInsertion> try_build_rivals(const Scene& scene, std::s
   return detail::if_good(found, problems, [&] { return RivalInsertion(scene, rivals); });
 }
 
+#if defined(__cpp_exceptions)
 /// The whole tick of a scene with rivals: the same input gate, force limits and syringe as the scene has with K06. An
 /// automatic force scale follows from the rivals' own forces. Throws SceneError.
 inline RivalServoStep build_rivals(const Scene& scene, std::span<const AnyRival> rivals, const GateLimits& gate = {},
@@ -56,5 +57,6 @@ inline RivalServoStep build_rivals(const Scene& scene, std::span<const AnyRival>
   auto step = detail::step_of(scene, try_build_rivals(scene, rivals, problems), problems, gate, limits);
   return detail::or_throw(std::move(step), std::move(problems));
 }
+#endif
 
 }  // namespace punctura

@@ -12,8 +12,8 @@
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
 
-using namespace punctura;
-
+// Tests are compiled together; these short names are of this file.
+namespace punctura::constant_test {
 namespace {
 
 constexpr Needle needle{1.08e-3, 0.28};
@@ -73,3 +73,5 @@ TEST_CASE("the square root of a constant is that of the processor") {
   for (const double x : {0x1p-1074, 0x1.fffffffffffffp1023, 0x1.fffffffffffffp0, 0x1.ffffffffffffep1, 4.0})
     CHECK(detail::constant_sqrt(x) == std::sqrt(x));
 }
+
+}  // namespace punctura::constant_test

@@ -57,7 +57,7 @@ TEST_CASE("the noise of ticks is uniform, and ticks, axes and seeds are independ
     across += u.x() * u.y();
     seeds += u.x() * tick_noise(8, k).x();
   }
-  for (int j = 0; j < 3; ++j) {
+  for (std::size_t j = 0; j < 3; ++j) {
     CHECK(std::abs(sum[j] / n) < 4 * std::sqrt(1. / 12 / n));
     CHECK(std::abs(squares[j] / n - 1. / 12) < 4 * std::sqrt(1. / 180 / n));
   }

@@ -16,8 +16,8 @@ CutLaw cut_law(const Needle&, const Membrane&, std::size_t) { return {}; }
 const StepMaker cuts = StepMaker::with_laws(cut_law);
 
 /// A loop with a model, armed, after the ramp, 2 mm in the tissue.
-struct Felt {
-  explicit Felt(const StepMaker& model, ForceLimits limits = {}) {
+struct FeltRun {
+  explicit FeltRun(const StepMaker& model, ForceLimits limits = {}) {
     auto made = std::make_unique<HandCranked>();
     device = made.get();
     LoopSettings settings;
@@ -70,7 +70,7 @@ StepMaker pushes(double force) {
 }  // namespace
 
 TEST_CASE("a loop runs a law of your own, with memory, behind gate and limits") {
-  Felt felt(cuts);
+  FeltRun felt(cuts);
   felt.device->move(-2e-3, -6e-3, 400);
   CHECK(felt.loop->latest().force[1] == doctest::Approx(1));
   felt.device->move(-6e-3, 1e-3, 400);
@@ -85,7 +85,7 @@ TEST_CASE("a loop runs a law of your own, with memory, behind gate and limits") 
 }
 
 TEST_CASE("a scene keeps the model of the loop, and the cut") {
-  Felt felt(cuts);
+  FeltRun felt(cuts);
   Scene scene = paper_scene();
   scene.display.force_scale = 0.5;
   felt.loop->exchange(scene);
@@ -100,7 +100,7 @@ TEST_CASE("a model of another kind begins afresh: the force fades, and the run g
   ForceLimits limits;
   limits.max_force = 0.5;
   for (const bool to_own : {true, false}) {
-    Felt felt(to_own ? StepMaker() : cuts, limits);
+    FeltRun felt(to_own ? StepMaker() : cuts, limits);
     felt.device->move(-2e-3, -2e-3, 1600);
     const Snapshot before = felt.loop->latest();
     REQUIRE(before.force[1] > 0.2);
@@ -123,7 +123,7 @@ TEST_CASE("a model of another kind begins afresh: the force fades, and the run g
 }
 
 TEST_CASE("a model of another kind takes over fault and budget, and clears neither") {
-  Felt felt(cuts);
+  FeltRun felt(cuts);
   DeviceSample bad = reading(1, 0);
   bad.healthy = false;
   felt.device->tick(bad);
@@ -141,7 +141,7 @@ TEST_CASE("a model of another kind takes over fault and budget, and clears neith
 TEST_CASE("a loop runs each rival, and a scene keeps it") {
   AnyRival::for_each_kind([]<typename R>(const R& rival) {
     CAPTURE(R::name);
-    Felt felt(StepMaker::with_rivals({AnyRival(RivalRun<R>{rival, {}})}));
+    FeltRun felt(StepMaker::with_rivals({AnyRival(RivalRun<R>{rival, {}})}));
     const std::size_t before = allocations();
     felt.device->move(-2e-3, -2.5e-3, 160);
     CHECK(allocations() == before);
@@ -154,16 +154,16 @@ TEST_CASE("a loop runs each rival, and a scene keeps it") {
 }
 
 TEST_CASE("no model goes around the guard, whatever force it asks for") {
-  Felt strong(pushes(100));
+  FeltRun strong(pushes(100));
   CHECK(strong.loop->latest().model_force[1] == 100);
   CHECK(strong.loop->latest().force[1] == doctest::Approx(strong.loop->latest().ceiling));
   CHECK(strong.loop->latest().ceiling < ForceLimits{}.max_force);
-  Felt broken(pushes(std::numeric_limits<double>::quiet_NaN()));
+  FeltRun broken(pushes(std::numeric_limits<double>::quiet_NaN()));
   CHECK(broken.loop->latest().force == zero);
   CHECK(broken.loop->latest().fault == Fault::non_finite_force);
 
   // a model that gives its force at once, in the tissue: it comes with the fade
-  Felt felt{StepMaker()};
+  FeltRun felt{StepMaker()};
   const double before = felt.loop->latest().force[1];
   felt.loop->exchange(paper_scene(), pushes(before + 1));
   CHECK(felt.largest_step(640) < 0.01);
@@ -171,7 +171,7 @@ TEST_CASE("no model goes around the guard, whatever force it asks for") {
 }
 
 TEST_CASE("problems of scene, limits and model are told together, and the old model continues") {
-  Felt felt(cuts);
+  FeltRun felt(cuts);
   Scene scene = paper_scene();
   scene.membranes.push_back(scene.membranes[0]);
   try {
