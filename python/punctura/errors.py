@@ -56,6 +56,10 @@ class NoSuchFileError(PuncturaError):
     """A file that the caller named does not exist. Each kind of file has a subclass, or a ConfigurationError."""
 
 
+class IncompleteCallError(PuncturaError):
+    """Options of a command are missing. The message has the whole command."""
+
+
 def sentence_of(error: BaseException) -> str:
     """The sentence of an error; an error of the system names its file first and has no number."""
     if not isinstance(error, OSError) or error.filename is None or not error.strerror:

@@ -29,7 +29,7 @@ from punctura.cli._streams import (
     wait_for_stderr_again,
 )
 from punctura.defects import PATIENCE_S, explain, is_defect
-from punctura.errors import ConfigurationError, NoSuchFileError
+from punctura.errors import ConfigurationError, IncompleteCallError, NoSuchFileError
 from punctura.process.signals import ENDING, Ended, ends_on_signals
 
 _usual_warning = warnings.formatwarning
@@ -88,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 build_app(*given[:1])(given, prog_name="punctura")
         except Exception as error:
             words = explain(error, PATIENCE_S)
-            if isinstance(error, ConfigurationError | NoSuchFileError):
+            if isinstance(error, ConfigurationError | IncompleteCallError | NoSuchFileError):
                 _fail(words, CALLED_WRONGLY)
             if isinstance(error, StdoutError):
                 give_up_stdout()

@@ -146,7 +146,7 @@ def read_or_ask(path: Path, reading: Reading, context: typer.Context, text: str 
     text, option: what else is not stated, and how to state it; then there is no trace.
     """
     from punctura.trace.read import read_as
-    from punctura.trace.trace import TraceError, Unstated
+    from punctura.trace.trace import IncompleteTraceError, Unstated
 
     texts, options = [text] if text else [], [option] if option else []
     try:
@@ -155,7 +155,7 @@ def read_or_ask(path: Path, reading: Reading, context: typer.Context, text: str 
         texts.append(str(error))
         options += error.options
     if texts:
-        raise TraceError("\n".join([*texts, f"The whole command: {_command_with(context, options)}"]))
+        raise IncompleteTraceError("\n".join([*texts, f"The whole command: {_command_with(context, options)}"]))
     return trace
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import PuncturaError
+from punctura.errors import IncompleteCallError
 from punctura.trace.turns import depth_hysteresis, insertion_numbers
 
 Array = NDArray[np.float64]
@@ -29,6 +30,10 @@ class Unstated(TraceError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+class IncompleteTraceError(TraceError, IncompleteCallError):
+    """The command does not state what the file of a trace leaves open."""
 
 
 @dataclass(frozen=True)

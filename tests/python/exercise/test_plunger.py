@@ -32,7 +32,7 @@ def test_a_thumb_that_pushes_and_lets_go_passes():
     assert 3 < gave.push < 4 and 0 < gave.injected < 1e-6 and gave.seconds == 1
     assert any(text.startswith("The plunger gave way under 4.0 N") for text in result.reasons)
     assert about(result.coaching.good)["plunger"].text.startswith(
-        "You let the plunger go well: only 0.9 mL after it gave way; 2.0 mL are"
+        "You let the plunger go well: only 1.0 mL after it gave way; 2.0 mL are"
     )
 
 

@@ -120,7 +120,7 @@ def test_a_thumb_that_is_drawn_back_between_the_wall_and_the_flow_makes_no_loss_
     columns = on_device()
     (gave,) = result(columns).metrics.yields
     thumb = columns["thumb"].copy()
-    thumb[np.searchsorted(columns["time"], gave.time) - 1] += 2e-3  # the point is behind the wall in this tick
+    thumb[np.searchsorted(columns["time"], gave.time)] += 2e-3  # the point comes out behind the wall in this tick
     (drawn,) = result(columns | {"thumb": thumb}).metrics.yields
     assert drawn.time == gave.time and drawn.loss.after > gave.loss.after + 0.3
 

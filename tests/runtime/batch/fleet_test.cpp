@@ -144,7 +144,7 @@ TEST_CASE("a fleet that makes the history of another one goes on with its bits, 
   SetOfFleets all({}, [&](std::size_t i) { return fleet_scene(Solver::exact, i); });
   const auto jump = [](std::size_t i) { return i == 5 ? 1e3 : fleet_speed(i, 0); };
   CHECK(all.step(jump, 35) == 0);
-  for (std::size_t i : {1, 30, 36}) all.place_again(i, i + 2);
+  for (const std::size_t i : {std::size_t{1}, std::size_t{30}, std::size_t{36}}) all.place_again(i, i + 2);
   CHECK(all.step([](std::size_t i) { return fleet_speed(i, 0); }, 35) == 0);
   all.place_again(7, 3);  // has made no tick
   for (auto& fleet : all.fleets) {
