@@ -35,7 +35,9 @@ inline constexpr Range at_least_0{0, no_bound, false, true, "must be 0 or more"}
 
 /// A unit of files: the end of a key, as in thickness_mm, its name, and its size in SI: digits times 10^exponent.
 struct FileUnit {
-  std::string_view suffix{}, name{}, digits = "1";
+  std::string_view suffix{};
+  std::string_view name{};
+  std::string_view digits = "1";
   int exponent = 0;
 };
 

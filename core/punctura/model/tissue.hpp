@@ -94,7 +94,7 @@ constexpr bool is_k06(const BasicTissue<Scalar>& t) noexcept {
   return has_k06_grip(t) && !remembers(t);
 }
 
-/// In the order of the struct, of files and of forms.
+// In the order of the struct, of files and of forms.
 // clang-format off
 template <typename Scalar, typename T = BasicTissue<Scalar>>
 inline constexpr auto tissue_rows_of = std::tuple{

@@ -14,6 +14,12 @@
 
 namespace punctura {
 
+/// Gives the model of a scene, or an empty optional and the scene's problems.
+template <typename ModelOf>
+concept GivesModel = requires(const ModelOf make, const Scene& scene, std::vector<Problem>& problems) {
+  { make(scene, problems)->outside() } -> std::same_as<bool>;
+};
+
 /// Makes the whole tick of a scene with a model of any kind. A loop and a replay have one.
 ///
 /// It gets only the model from outside. Gate, limits, force scale and syringe are its own, so no model goes around
@@ -22,10 +28,7 @@ class StepMaker {
  public:
   /// model_of(scene, problems): the model of a scene, or an empty optional and the scene's problems. It can be an
   /// InsertionOf, or any class that ServoStepOf can hold.
-  template <typename ModelOf>
-    requires requires(const ModelOf make, const Scene& scene, std::vector<Problem>& problems) {
-      { make(scene, problems)->outside() } -> std::same_as<bool>;
-    }
+  template <GivesModel ModelOf>
   StepMaker(ModelOf model_of)
       : make_([model_of = std::move(model_of)](const Scene& scene, const GateLimits& gate, const ForceLimits& limits) {
           std::vector<Problem> problems;

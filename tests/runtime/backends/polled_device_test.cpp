@@ -46,8 +46,8 @@ struct Ticks {
 }  // namespace
 
 TEST_CASE("start returns after the preparation, at every start") {
-  Bare device;
   Ticks ticks;
+  Bare device;
   for (int i = 0; i < 2000; ++i) {
     device.prepared = false;
     device.start(ticks.tick());
@@ -57,8 +57,8 @@ TEST_CASE("start returns after the preparation, at every start") {
 }
 
 TEST_CASE("a failed preparation ends the thread before its ticks, and it can start again") {
-  Bare device;
   Ticks ticks;
+  Bare device;
   device.refusal = "no power";
   CHECK_THROWS_WITH_AS(device.start(ticks.tick()), "no power", DeviceError);
   CHECK(ticks.healthy == 0);
@@ -68,8 +68,8 @@ TEST_CASE("a failed preparation ends the thread before its ticks, and it can sta
 }
 
 TEST_CASE("a device whose ticks have ended counts as running until stop(); a second stop has no effect") {
-  Bare device;
   Ticks ticks;
+  Bare device;
   device.ticks = 3;
   device.start(ticks.tick());
   while (!device.finished()) std::this_thread::yield();
@@ -82,8 +82,8 @@ TEST_CASE("a device whose ticks have ended counts as running until stop(); a sec
 }
 
 TEST_CASE("a lost device has zero force before the loop gets its one unhealthy sample") {
-  Bare device;
   Ticks ticks;
+  Bare device;
   device.lost = true;
   device.start(ticks.tick());
   while (!device.finished()) std::this_thread::yield();
@@ -93,8 +93,8 @@ TEST_CASE("a lost device has zero force before the loop gets its one unhealthy s
 }
 
 TEST_CASE("the thread itself requests real-time scheduling, before the preparation") {
-  Bare device({true, false, {80, -1, false, false}});
   Ticks ticks;
+  Bare device({true, false, {80, -1, false, false}});
   device.start(ticks.tick());
   device.stop();
   CHECK(device.known > 0);
