@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.units import split_name
+
 Array = NDArray[np.float64]
 
 _CLOCK = re.compile(
@@ -34,6 +36,11 @@ def clock_seconds(cells: Sequence[Any]) -> Array:
         days = np.cumsum(np.diff(time[known], prepend=time[known[0]]) < -_DAY / 2)
         time[known] += _DAY * days
     return time
+
+
+def clock_column(name: str) -> str:
+    """The name of a column of clock_seconds()."""
+    return f"{split_name(name)[0]} [s]"
 
 
 def is_stamp(time: Array) -> bool:

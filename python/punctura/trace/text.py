@@ -16,7 +16,7 @@ import pyarrow as pa
 import pyarrow.csv
 from numpy.typing import NDArray
 
-from punctura.trace.clock import clock_seconds, is_clock
+from punctura.trace.clock import clock_column, clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import column_names, first_row
@@ -25,7 +25,6 @@ from punctura.trace.lvm import is_lvm, lvm_lines
 from punctura.trace.size import check_bytes, check_size
 from punctura.trace.table import Table
 from punctura.trace.trace import Finding, TraceError, Unstated
-from punctura.trace.units import split_name
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -75,7 +74,7 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
         for name in names:
             clock = is_clock(cells[name].slice(0, LOOKED_AT).to_pylist())
             read = clock_seconds(cells[name].to_pylist()) if clock else _numbers(cells[name], mark, decimal is not None)
-            table[f"{split_name(name)[0]} [s]" if clock else name] = np.insert(read, left_out, np.nan)
+            table[clock_column(name) if clock else name] = np.insert(read, left_out, np.nan)
     except DoubtfulNumber as doubt:
         text = (
             f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate"

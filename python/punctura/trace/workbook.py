@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from punctura.extras import optional
-from punctura.trace.clock import clock_seconds, is_clock
+from punctura.trace.clock import clock_column, clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, decimal_in, numbers
 from punctura.trace.heading import column_names, first_row
 from punctura.trace.lines import LOOKED_AT
@@ -17,7 +17,6 @@ from punctura.trace.sheets import only_trace, wanted_sheet
 from punctura.trace.size import check_size
 from punctura.trace.table import Table
 from punctura.trace.trace import TraceError
-from punctura.trace.units import split_name
 from punctura.trace.unreadable import unreadable
 
 
@@ -48,7 +47,7 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     for i, name in enumerate(column_names(rows[:first], width) if first < len(rows) else ()):
         cells = [row[i] for row in rows[first:]]
         clock = is_clock(cells)
-        table[f"{split_name(name)[0]} [s]" if clock else name] = (
+        table[clock_column(name) if clock else name] = (
             clock_seconds(cells) if clock else numbers(cells, mark, decimal is not None)
         )
     return table
