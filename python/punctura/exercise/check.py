@@ -17,7 +17,7 @@ from punctura import Scene
 from punctura.errors import MISSING, Problem
 from punctura.exercise.depths import unreachable
 from punctura.exercise.exercise import start_axis
-from punctura.exercise.fields import FARTHEST_START_MM, LEAST_HEADING, LEAST_MM, MOST_HEADING, Space, Start
+from punctura.exercise.fields import FARTHEST_START_MM, LEAST_MM, Space, Start, no_direction
 from punctura.exercise.goals import GOALS, Given
 from punctura.exercise.problems import located, problem
 from punctura.exercise.schema import ExerciseFile
@@ -93,8 +93,7 @@ def _start(start: Given, scene: Scene | None) -> Iterator[Problem]:
     heading = start.get("heading")
     if heading is None:
         return
-    if not LEAST_HEADING <= math.hypot(*heading) <= MOST_HEADING:
-        reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
+    if reason := no_direction(heading):
         yield Problem("start.heading", heading, reason)
     elif scene is not None and "angle_deg" in start:
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from pydantic import Field
@@ -40,6 +41,13 @@ Speed = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM_PER_S, le=MOST_M
 Push = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_PUSH_N, le=MOST_PUSH_N)]
 Volume = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_ML, le=MOST_ML)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+
+
+def no_direction(vector: list[float]) -> str:
+    """The reason why three numbers are no direction; empty if they are one."""
+    if LEAST_HEADING <= math.hypot(*vector) <= MOST_HEADING:
+        return ""
+    return f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
 
 
 class Start(Table):

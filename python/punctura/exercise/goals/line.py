@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Literal
 
@@ -14,7 +13,7 @@ from punctura._core import grazing_cosine
 from punctura.errors import Problem
 from punctura.events import Event
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import LEAST_HEADING, MOST_HEADING, Distance, Vector
+from punctura.exercise.fields import Distance, Vector, no_direction
 from punctura.exercise.goals.goal import Course, Given, Goal
 from punctura.exercise.judge import Limit, SoFar
 from punctura.exercise.moment import Moment, by, first_of
@@ -54,8 +53,7 @@ class OnLine(Goal):
         along = given.get("along")
         if along is None:
             return
-        if not LEAST_HEADING <= math.hypot(*along) <= MOST_HEADING:
-            reason = f"must be a direction whose length is from {LEAST_HEADING:g} to {MOST_HEADING:g}"
+        if reason := no_direction(along):
             yield Problem("along", along, reason)
         elif scene is not None and np.isnan(across(scene, along)).any():
             yield Problem("along", along, "must not be parallel to the first membrane's normal")
