@@ -8,6 +8,7 @@ from typing import Any
 import punctura
 
 sys.path.insert(0, str(Path(__file__).parent))
+from layout import PAGES
 from text import docstring_rst
 
 project = "Punctura"
@@ -17,15 +18,7 @@ html_title = f"Punctura {release}"
 
 extensions = ["myst_nb", "sphinx.ext.autodoc"]
 root_doc = "index"
-include_patterns = [
-    "*.md",
-    "docs/*.md",
-    "docs/decisions/*.md",
-    "docs/notebooks/*.md",
-    "examples/README.md",
-    "reference/**",
-    "gallery/*",
-]
+include_patterns = [*PAGES, "reference/**", "gallery/*"]
 exclude_patterns = ["capi/**", "core/**", "runtime/**", "python/**"]
 source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
 

@@ -23,7 +23,7 @@ LINKED = (
     "runtime",
     "python/punctura",
 )
-PAGES = ("*.md", "docs/*.md", "docs/notebooks/*.md", "examples/*")
+PAGES = ("*.md", "docs/*.md", "docs/decisions/*.md", "docs/notebooks/*.md", "examples/*")  # conf.py reads it, too
 HEADER = re.compile(r"\]\((?:\.\./)*((?:core|runtime)/[\w/]+\.hpp)\)")
 FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(?:lab/)?(\w+)/?\)")
 
