@@ -107,7 +107,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 # These verbs make Arrow arrays.
-_WITH_TABLES = frozenset({"export", "identify", "replay", "rivals", "score", "simulate", "study"})
+_WITH_TABLES = frozenset({"export", "identify", "measure", "replay", "rivals", "score", "simulate", "study"})
 
 
 class _NoPandas:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from pathlib import Path
 
 # The endings of trace files in a folder and in the studio; any other file is read as text if it is named alone.
 TRACE_ENDINGS = (
@@ -14,3 +15,11 @@ TRACE_ENDINGS = (
 def as_text(path: str | os.PathLike[str]) -> str:
     """A path as text that can be written anywhere: bytes that are no UTF-8 and control characters become marks."""
     return re.sub(r"[\x00-\x1f\x7f-\x9f]", "?", os.fsencode(path).decode("utf-8", "replace"))
+
+
+def traces_in(folder: str | os.PathLike[str]) -> list[Path]:
+    """The trace files of a folder, by name. Raises OSError, ValueError for a folder without traces."""
+    paths = sorted(p for p in Path(folder).iterdir() if p.suffix.lower() in TRACE_ENDINGS and p.is_file())
+    if not paths:
+        raise ValueError(f"{folder}: holds no trace ({', '.join(TRACE_ENDINGS)})")
+    return paths

@@ -23,7 +23,7 @@ import pyarrow.parquet
 import punctura
 from punctura import Needle
 from punctura.defects import PATIENCE_S, explain
-from punctura.files.names import TRACE_ENDINGS, as_text
+from punctura.files.names import as_text, traces_in
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
@@ -50,11 +50,6 @@ class Task:
                 "punctura": punctura.__version__}  # fmt: skip
 
 
-def traces_in(folder: Path) -> list[Path]:
-    """The trace files of a folder, by name."""
-    return sorted(path for path in folder.iterdir() if path.suffix.lower() in TRACE_ENDINGS and path.is_file())
-
-
 def identify_folder(
     folder: str | os.PathLike[str],
     out: str | os.PathLike[str],
@@ -68,8 +63,6 @@ def identify_folder(
     identified, kept from before and failed, and the population. Raises OSError, ValueError for a folder without traces.
     """
     paths, out = traces_in(Path(folder)), Path(out)
-    if not paths:
-        raise ValueError(f"{folder}: holds no trace ({', '.join(TRACE_ENDINGS)})")
     if out.resolve() == Path(folder).resolve():
         raise ValueError(
             f"{out}: holds the traces; the results need another folder, because some are Parquet files, too"

@@ -196,6 +196,7 @@ READS_A_FILE = {
     "export": ["--out", "o.csv"],
     "export-fmu": ["--out", "o.fmu"],
     "identify": ["--needle", "diameter_mm=1,tip_angle_deg=20"],
+    "measure": [],
     "place": [],
     "replay": [],
     "run": ["--headless"],
