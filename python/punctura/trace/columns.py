@@ -95,7 +95,7 @@ def choose_columns(
     chosen: dict[str, int] = {}
     columns, units = columns or {}, units or {}
     for role, wanted in columns.items():
-        found = _wanted(wanted, names)
+        found = place_of(wanted, names)
         if role not in ROLES:
             problems.append(Problem("column", "", f"{role!r} is no role of a column; the roles are {', '.join(ROLES)}"))
         elif found is not None:
@@ -128,7 +128,7 @@ def choose_columns(
     return {role: table[names[at]] * sizes[role] for role, at in chosen.items()}, findings
 
 
-def _wanted(wanted: str | int, names: Sequence[str]) -> int | None:
+def place_of(wanted: str | int, names: Sequence[str]) -> int | None:
     """The place of a column that is named with or without its unit, or by its number from 1."""
     if wanted in names:
         return names.index(str(wanted))

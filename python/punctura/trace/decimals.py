@@ -57,7 +57,10 @@ def number(cell: Any, decimal: Decimal = ".", asked: bool = False) -> float:
     Marks between thousands are left out. Raises DoubtfulNumber for 1.234 among decimal commas, unless asked.
     """
     if not isinstance(cell, str):
-        return float(cell) if isinstance(cell, (int, float)) else np.nan
+        try:
+            return float(cell) if isinstance(cell, (int, float)) else np.nan
+        except OverflowError:  # a whole number of more than 308 digits
+            return np.nan
     cell = cell.replace("\u2212", "-")
     if decimal == "," and not asked and _POINTS.fullmatch(cell):
         raise DoubtfulNumber(cell.strip())
@@ -76,6 +79,6 @@ def numbers(cells: Sequence[Any], decimal: Decimal = ".", asked: bool = False) -
     if decimal == "." or not any(isinstance(cell, str) and "." in cell for cell in cells):
         try:
             return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, OverflowError):
             pass
     return np.array([number(cell, decimal, asked) for cell in cells], dtype=np.float64)

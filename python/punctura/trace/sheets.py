@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from punctura.trace.columns import candidates
+from punctura.trace.columns import candidates, place_of
 from punctura.trace.reading import Reading
 from punctura.trace.table import Table
 from punctura.trace.trace import TraceError, Unstated
@@ -30,7 +30,7 @@ def wanted_sheet(path: Path, names: Sequence[str], sheet: str) -> str:
 
 def only_trace(path: Path, tables: Mapping[str, Table], reading: Reading) -> Table:
     """The one table that can be a trace; else the one table that there is. Raises SheetError if it is not clear."""
-    traces = [name for name, table in tables.items() if _is_trace(table, reading)] or list(tables)
+    traces = [name for name, table in tables.items() if is_trace(table, reading)] or list(tables)
     if len(traces) == 1:
         return tables[traces[0]]
     if not traces:
@@ -39,10 +39,14 @@ def only_trace(path: Path, tables: Mapping[str, Table], reading: Reading) -> Tab
     raise SheetError(f"{text}, or identify all of them (punctura identify FILE --out FOLDER)", traces)
 
 
-def _is_trace(table: Table, reading: Reading) -> bool:
-    names = list(table)
+def is_trace(table: Table, reading: Reading) -> bool:
+    """Whether a table has the columns that are stated, or known by their names, and at least five rows."""
+    names, stated = list(table), reading.columns
     long_enough = len(next(iter(table.values()), ())) >= 5
-    return long_enough and all(role in reading.columns or candidates(role, names) for role in reading.needed)
+    return long_enough and all(
+        place_of(stated[role], names) is not None if role in stated else candidates(role, names)
+        for role in reading.needed
+    )
 
 
 def _listed(names: Sequence[str]) -> str:

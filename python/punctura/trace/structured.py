@@ -15,6 +15,7 @@ from punctura.trace.decimals import numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import with_unit
 from punctura.trace.reading import Reading
+from punctura.trace.sheets import is_trace, only_trace, wanted_sheet
 from punctura.trace.size import check_bytes, check_size
 from punctura.trace.table import Table
 from punctura.trace.trace import TraceError
@@ -37,57 +38,95 @@ def read_json(path: Path, reading: Reading) -> Table:
             held = [json.loads(line) for line in text.splitlines() if line.strip()]
         except (ValueError, RecursionError):
             raise TraceError(f"{path}: is no JSON: {whole}. Export it again") from None
-    units = held.get("units", {}) if isinstance(held, dict) else {}
-    table = table_of(path, held)
-    if not isinstance(units, dict):
-        return table
-    return Table({with_unit(name, str(units.get(name, ""))): column for name, column in table.items()})
+    return table_of(path, held, reading)
 
 
-def table_of(path: Path, held: Any) -> Table:
-    """The longest columns of nested dictionaries, or the columns of the only matrix, by number. Raises TraceError."""
-    columns: dict[str, Array] = {}
+def table_of(path: Path, held: Any, reading: Reading) -> Table:
+    """The only object that holds a trace; else the longest columns of all, or those of the only matrix, by number.
+
+    Raises TraceError.
+    """
+    objects: dict[str, dict[str, Array]] = {}
     matrices: list[Array] = []
-    for name, value in _parts("", held):
+    for where, name, value in _parts("", "", held, {}):
         if value.ndim == 1:
-            columns[name] = value
+            objects.setdefault(where, {})[name] = value
         else:
             matrices.append(value)
-    if not columns and len(matrices) == 1:
+    if not objects and len(matrices) == 1:
         check_size(path, *matrices[0].shape)
         return Table({str(i + 1): column for i, column in enumerate(matrices[0].T)})
-    if not columns:
-        raise TraceError(f"{path}: holds neither vectors nor one matrix; save depth, force and time as one vector each")
+    if not objects:
+        text = "holds neither vectors of numbers nor one matrix; save depth, force and time as one vector each"
+        raise TraceError(f"{path}: {text}")
+    tables = {where or "the outermost": _longest(path, columns) for where, columns in objects.items()}
+    if reading.sheet is not None:
+        return tables[wanted_sheet(path, list(tables), reading.sheet)]
+    if any(is_trace(table, reading) for table in tables.values()):
+        return only_trace(path, tables, reading)
+    names = [name for columns in objects.values() for name in columns]
+    return _longest(
+        path,
+        {
+            f"{where} {name}".strip() if names.count(name) > 1 else name: column
+            for where, columns in objects.items()
+            for name, column in columns.items()
+        },
+    )
+
+
+def _longest(path: Path, columns: Mapping[str, Array]) -> Table:
     longest = max(len(column) for column in columns.values())
     check_size(path, longest, len(columns))
     return Table({name: column for name, column in columns.items() if len(column) == longest})
 
 
-def _parts(name: str, value: Any) -> Iterator[tuple[str, Array]]:
-    """The vectors and matrices in a value, with their names."""
+def _parts(where: str, name: str, value: Any, units: Mapping[str, Any]) -> Iterator[tuple[str, str, Array]]:
+    """The vectors and matrices in a value: the object that holds each, its name, its numbers.
+
+    where: the object of `value`. name: its key there. units: of the columns, by name.
+    """
+    here = f"{where}.{name}".strip(".")
+    if isinstance(value, dict) and {"columns", "data"} <= set(value):  # as pandas writes it
+        value = [value["columns"], *value["data"]]
+    if (
+        isinstance(value, dict)
+        and value
+        and all(str(key).isdigit() and not isinstance(inner, (dict, list)) for key, inner in value.items())
+    ):
+        value = list(value.values())  # a column with the numbers of its rows
     if isinstance(value, dict):
-        if {"columns", "data"} <= set(value):  # as pandas writes it
-            value = dict(zip(map(str, value["columns"]), zip(*value["data"], strict=True), strict=True))
-        if value and all(str(key).isdigit() and not isinstance(inner, (dict, list)) for key, inner in value.items()):
-            value = list(value.values())  # a column with the numbers of its rows
-        else:
-            for key, inner in value.items():
-                yield from _parts(str(key), inner)
-            return
+        stated = value.get("units")
+        units = {**units, **stated} if isinstance(stated, dict) else units
+        for key, inner in value.items():
+            yield from _parts(here, str(key), inner, units)
+        return
     if isinstance(value, (list, tuple)) and value:
         if isinstance(value[0], dict):
             rows = [_flat(row) for row in value if isinstance(row, dict)]
-            value = {key: [row.get(key) for row in rows] for key in rows[0]}
-            yield from (part for key, inner in value.items() for part in _parts(key, inner))
+            if any(isinstance(inner, (list, np.ndarray)) for inner in rows[0].values()):  # a trace in each
+                for i, row in enumerate(rows, 1):
+                    yield from _parts(here, str(i), row, units)
+            else:
+                for key in rows[0]:
+                    yield from _parts(here, key, [row.get(key) for row in rows], units)
             return
         if isinstance(value[0], (list, tuple)):
-            value = np.array(value, dtype=np.float64) if len({len(row) for row in value}) == 1 else None
+            if len({len(row) if isinstance(row, (list, tuple)) else -1 for row in value}) != 1:
+                return
+            if all(isinstance(cell, str) for cell in value[0]):  # the names of the columns
+                for key, *cells in zip(*value, strict=True):
+                    yield from _parts(here, key, cells, units)
+                return
+            value = np.array([numbers(row) for row in value])
         elif is_clock(value):
             name, value = with_unit(name, "s"), clock_seconds(value)
         else:
             value = numbers(value)
+            if not np.isfinite(value).any():  # texts
+                return
     if isinstance(value, np.ndarray) and value.ndim in (1, 2) and value.dtype.kind in "biuf":
-        yield name, value.astype(np.float64)
+        yield where, with_unit(name, str(units.get(name, ""))), value.astype(np.float64)
 
 
 def _flat(row: Mapping[str, Any]) -> dict[str, Any]:

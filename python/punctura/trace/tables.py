@@ -12,7 +12,7 @@ from punctura.extras import optional
 from punctura.trace.bags import is_bag, read_bag
 from punctura.trace.packed import check_mat
 from punctura.trace.reading import Reading
-from punctura.trace.size import check_bytes, check_names, check_size
+from punctura.trace.size import MOST_COLUMNS, check_bytes, check_names, check_size
 from punctura.trace.structured import read_json, table_of
 from punctura.trace.table import Table
 from punctura.trace.tdms import read_tdms
@@ -31,7 +31,7 @@ def read_table(path: Path, reading: Reading) -> Table:
     if suffix in (".xlsx", ".xlsm"):
         table = read_workbook(path, reading)
     elif suffix in (".parquet", ".mat"):
-        table = _parquet(path) if suffix == ".parquet" else _mat(path)
+        table = _parquet(path) if suffix == ".parquet" else _mat(path, reading)
     elif suffix == ".tdms":
         table = read_tdms(path, reading)
     elif suffix in (".json", ".jsonl", ".ndjson"):
@@ -64,14 +64,18 @@ def _is_number(kind: pa.DataType) -> bool:
     return bool(pa.types.is_integer(kind) or pa.types.is_floating(kind))
 
 
-def _mat(path: Path) -> Table:
+def _mat(path: Path, reading: Reading) -> Table:
     optional("scipy.io", "identify", f"{path}: a MAT file")
     from scipy.io import loadmat, whosmat
 
     try:
         check_mat(path, structures=False)
         variables = whosmat(path)
-        wanted = [name for name, shape, kind in variables if kind != "cell" and (kind != "struct" or prod(shape) == 1)]
+        wanted = [
+            name
+            for name, shape, kind in variables
+            if kind != "cell" and (kind != "struct" or prod(shape) <= MOST_COLUMNS)
+        ]
         check_mat(path, structures=any(kind == "struct" for name, _, kind in variables if name in wanted))
         check_size(path, 0, len(variables))
         check_size(
@@ -84,4 +88,4 @@ def _mat(path: Path) -> Table:
         raise TraceError(f"{path}: is a MAT file of version 7.3; save it again with save(..., '-v7')") from None
     except Exception as error:  # scipy raises many types for a damaged file
         raise unreadable(path, "MAT", error) from None
-    return table_of(path, {name: value for name, value in held.items() if not name.startswith("__")})
+    return table_of(path, {name: value for name, value in held.items() if not name.startswith("__")}, reading)
