@@ -37,9 +37,10 @@ class AnyStep {
  private:
   template <typename Insertion>
   class Holder;
-  /// Its address is the kind of a model. Two libraries may have two: then the model begins afresh.
+  /// Its address is the kind of a model. Two libraries may have two: then the model begins afresh. It is not const:
+  /// linkers may give constants with the same value one address (/OPT:ICF of MSVC), and all kinds would be one.
   template <typename Insertion>
-  static inline const char kind_of = 0;
+  static inline char kind_of = 0;
 
   explicit AnyStep(const char* kind) noexcept : kind_(kind) {}
 
