@@ -1,10 +1,6 @@
 // A scene behind the C ABI.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "errors.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/scene/scene.hpp"
@@ -14,8 +10,6 @@ struct punctura_scene {
 };
 
 namespace punctura::c {
-
-/// More rows than any list of a scene may have. The check of the scene has the limit of each list.
 
 /// The types that build() and build_insertion() make.
 using SceneInsertion = BasicInsertion<double>;

@@ -78,8 +78,9 @@ class ScenePlaces {
         words_[path] = [&value](std::string_view word) { return value = word, std::string(); };
     });
     words_["display.force_scale"] = [&scene](std::string_view word) {
-      scene.display.automatic = word == automatic_word;
-      return scene.display.automatic ? std::string() : "must be a number or \"automatic\"";
+      if (word != automatic_word) return std::string("must be a number or \"automatic\"");
+      scene.display.automatic = true;
+      return std::string();
     };
   }
 

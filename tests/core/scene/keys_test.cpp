@@ -63,7 +63,9 @@ TEST_CASE("words and texts are set by their paths, and an unknown one is a probl
   CHECK(scene.display.automatic);
   CHECK(!places.set("servo.solver", "fast", problems));
   CHECK(!places.set("needle.color", "red", problems));
-  REQUIRE(problems.size() == 2);
+  CHECK(!places.set("display.force_scale", "off", problems));
+  CHECK(scene.display.automatic);  // an error changes nothing
+  REQUIRE(problems.size() == 3);
   CHECK(line_of(problems[0]) == "servo.solver: \"fast\" is unknown; it must be one of \"paper\", \"exact\"");
   CHECK(places.number("needle.color") == nullptr);
 }
