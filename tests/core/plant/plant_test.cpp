@@ -141,6 +141,18 @@ TEST_CASE("a recorded motion is linear between samples and rests before and afte
   CHECK(motion.at(9).velocity == Vector3d::Zero());
 }
 
+TEST_CASE("strokes and recorded motions can begin again, at any time") {
+  StrokesMotion strokes({{0, 0, 0}, {1e-2, 0, 0}, 2, 1.0, 0.1, 0.1}, 0);
+  RecordedMotion recorded({1, 2, 4}, {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}});
+  const auto at = [](auto motion, double time) { return motion.at(time).position; };  // of a copy, from its beginning
+  const StrokesMotion new_strokes = strokes;
+  const RecordedMotion new_recorded = recorded;
+  for (const double time : {0.7, 9.0, 0.0, 2.4, 2.3, 0.05, 1.0}) {
+    CHECK(strokes.at(time).position == at(new_strokes, time));
+    CHECK(recorded.at(time).position == at(new_recorded, time));
+  }
+}
+
 TEST_CASE("the hand follows a target that jumps smoothly and reaches it") {
   Target target(Vector3d::Zero());
   target.at(0);

@@ -47,6 +47,29 @@ TEST_CASE("run as fast as possible, the loop on the simulated device equals the 
   CHECK(ring.lost() == 0);
 }
 
+TEST_CASE("in a second run of a device the hand makes its strokes again") {
+  SimulatedOptions options;
+  options.real_time = false;
+  options.ticks = 5120;
+  auto made = std::make_unique<SimulatedDevice>(StrokesMotion(strokes, 7), options);
+  auto& device = *made;
+  ServoLoop loop(std::move(made), paper_scene());
+  auto& ring = loop.listen(2 * options.ticks);
+  for (int run = 0; run < 2; ++run) {
+    loop.arm();
+    loop.start();
+    until_finished(device);
+    loop.stop();
+    double deepest = 0, last = 0;
+    ring.pop(options.ticks, [&](const Snapshot& tick) {
+      CHECK(tick.fault == Fault::none);
+      deepest = std::min(deepest, last = tick.sample.position[1]);
+    });
+    CHECK(deepest < -8e-3);
+    CHECK(last > 3e-3);
+  }
+}
+
 TEST_CASE("stop leaves zero force on the plant, and no tick follows") {
   SimulatedOptions options;
   options.realtime = {0, -1, false, false};

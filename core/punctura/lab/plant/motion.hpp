@@ -44,8 +44,9 @@ class StrokesMotion {
 
   double duration() const noexcept { return duration_; }  ///< s
 
-  /// The desired motion at a time (s, from 0). Times must not decrease from call to call.
+  /// The desired motion at a time (s, from 0). Fast if it is near the time of the last call.
   Desired at(double time) noexcept {
+    while (next_ > 0 && time < segments_[next_ - 1].begin) --next_;
     while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
     if (next_ == 0) return {home_, Vector3d::Zero()};
     const Segment& s = segments_[next_ - 1];
@@ -82,9 +83,10 @@ class RecordedMotion {
 
   double duration() const noexcept { return time_.back() - time_.front(); }  ///< s
 
-  /// The desired motion at a time (s, from the first sample). Times must not decrease from call to call.
+  /// The desired motion at a time (s, from the first sample). Fast if it is near the time of the last call.
   Desired at(double time) noexcept {
     const double t = time_.front() + time;
+    while (next_ > 0 && t < time_[next_ - 1]) --next_;
     while (next_ < time_.size() && t >= time_[next_]) ++next_;
     if (next_ == 0 || next_ == time_.size()) return {position_[next_ == 0 ? 0 : next_ - 1], Vector3d::Zero()};
     const double span = time_[next_] - time_[next_ - 1];
