@@ -64,8 +64,7 @@ def overview(recording: Recording) -> OverviewRecord:
     """All except the ticks, as JSON. Reads the whole recording to find its events."""
     info = recording.info
     loaded = loaded_of(recording)
-    scale = force_scale(info.scene, info.limits)
-    view = scene_view(loaded, 0, info.scene.servo.rate, scale, _laws(loaded.scene, recording))
+    view = scene_view(loaded, 0, info.scene.servo.rate, _scale(recording), _laws(loaded.scene, recording))
     events = [{"kind": "event", **event.model_dump()} for event in find_events(recording)]
     data = {key: value for key, value in info.data.items() if key not in ("scene", "about")}
     return {
@@ -75,6 +74,13 @@ def overview(recording: Recording) -> OverviewRecord:
         "ticks": recording.rows,
         "first_tick": max(0, recording.summary.first_tick),
     }
+
+
+def _scale(recording: Recording) -> float:
+    """The force scale of the first tick: what the device gave, also with rivals or by another version."""
+    pieces = (ticks_of(batch) for batch in recording.batches())
+    first = next((ticks.force_scale[0] for ticks in pieces if len(ticks)), None)
+    return force_scale(recording.info.scene, recording.info.limits) if first is None else float(first)
 
 
 def _laws(scene: Scene, recording: Recording) -> list[LawCurve] | None:

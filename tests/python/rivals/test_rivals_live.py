@@ -10,6 +10,7 @@ from punctura.live.run_notes import run_notes
 from punctura.record import Recorder, RecordingError, open_recording, replay
 from punctura.record.header import RecordingInfo
 from punctura.rivals import Layer, Rival, RivalInsertion, save_layers
+from punctura.studio.recorded import overview
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig12")
@@ -93,6 +94,7 @@ def test_limits_and_the_automatic_scale_act_on_a_rival(tmp_path):
     automatic = SCENE.replace(display=pn.DisplaySettings("automatic"))
     scaled = felt(tmp_path / "b.parquet", [strong], automatic)
     assert scaled.force_scale[0] < 0.1
+    assert overview(open_recording(tmp_path / "b.parquet"))["scene"]["force_scale"] == scaled.force_scale[0]
     assert replay(tmp_path / "b.parquet").identical
 
 
