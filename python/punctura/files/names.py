@@ -8,7 +8,8 @@ from pathlib import Path
 
 # The endings of trace files in a folder and in the studio; any other file is read as text if it is named alone.
 TRACE_ENDINGS = (
-    ".csv", ".tsv", ".txt", ".tra", ".lvm", ".json", ".jsonl", ".parquet", ".mat", ".xlsx", ".xlsm", ".tdms", ".bag",
+    ".csv", ".tsv", ".txt", ".tra", ".lvm", ".json", ".jsonl", ".parquet", ".mat", ".xlsx", ".xlsm", ".xls",
+    ".h5", ".hdf5", ".tdms", ".bag",
 )  # fmt: skip
 
 

@@ -40,13 +40,11 @@ def encoding_of(path: Path, stated: str | None = None) -> Encoding:
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return Encoding("utf-16")
     if b"\0" in head[:4096]:
-        if head.startswith(b"\xd0\xcf\x11\xe0"):
-            raise TraceError(f"{path}: is an Excel file of the kind before 2007; save it as XLSX, or as CSV")
         halves = head[0:4096:2], head[1:4096:2]  # plain letters in UTF-16 have a zero in each second byte
         for name, zeros, letters in (("utf-16-le", *halves[::-1]), ("utf-16-be", *halves)):
             if 2 * zeros.count(0) > len(zeros) and not letters.count(0):
                 return Encoding(name)
-        raise TraceError(f"{path}: is no text, Parquet, MAT or XLSX file; export the table as CSV")
+        raise TraceError(f"{path}: is no text, Parquet, MAT, XLSX or HDF5 file; export the table as CSV")
     return Encoding("utf-8-sig") if _is_utf8(path) else _old(head)
 
 

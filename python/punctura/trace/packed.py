@@ -61,6 +61,15 @@ def check_mat(path: Path, structures: bool) -> None:
         raise TraceError(f"{path}: expands to {what} {most // 1_000_000:,} MB; that is the limit. {remedy}")
 
 
+def holds_workbook(path: Path) -> bool:
+    """Whether a ZIP file is a workbook of Excel. Raises OSError."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "xl/workbook.xml" in archive.namelist()
+    except zipfile.BadZipFile:
+        return False
+
+
 def check_workbook(path: Path) -> None:
     """Raises TraceError if a part of an XLSX file expands too far, OSError, zipfile.BadZipFile."""
     with zipfile.ZipFile(path) as archive:

@@ -10,7 +10,8 @@ import pyarrow.parquet
 
 from punctura.extras import optional
 from punctura.trace.bags import is_bag, read_bag
-from punctura.trace.packed import check_mat
+from punctura.trace.hdf5 import read_hdf5
+from punctura.trace.packed import check_mat, holds_workbook
 from punctura.trace.reading import Reading
 from punctura.trace.size import MOST_COLUMNS, check_bytes, check_names, check_size
 from punctura.trace.structured import read_json, table_of
@@ -21,15 +22,19 @@ from punctura.trace.trace import TraceError
 from punctura.trace.unreadable import unreadable
 from punctura.trace.workbook import read_workbook
 
+_KINDS = {b"\xd0\xcf\x11\xe0": ".xls", b"\x89HDF": ".h5", b"PK\3\4": ".xlsx"}  # the first bytes
+
 
 def read_table(path: Path, reading: Reading) -> Table:
     """All columns of a file, or of the sheet of it that is the trace. Raises TraceError, OSError."""
     check_bytes(path)
-    suffix = path.suffix.lower()
     if is_bag(path):
         return read_bag(path)
-    if suffix in (".xlsx", ".xlsm"):
-        table = read_workbook(path, reading)
+    suffix = _suffix(path)
+    if suffix in (".xlsx", ".xlsm", ".xls"):
+        table = read_workbook(path, reading, old=suffix == ".xls")
+    elif suffix in (".h5", ".hdf5"):
+        table = read_hdf5(path, reading)
     elif suffix in (".parquet", ".mat"):
         table = _parquet(path) if suffix == ".parquet" else _mat(path, reading)
     elif suffix == ".tdms":
@@ -42,6 +47,16 @@ def read_table(path: Path, reading: Reading) -> Table:
         raise TraceError(f"{path}: holds no rows of numbers")
     check_names(path, table)
     return table
+
+
+def _suffix(path: Path) -> str:
+    """The ending of a file's name; that of its kind where its first bytes show it, as programs also name XLSX .xls."""
+    with path.open("rb") as file:
+        head = file.read(8)
+    kind = next((kind for start, kind in _KINDS.items() if head.startswith(start)), "")
+    if kind == ".xlsx" and not holds_workbook(path):
+        kind = ""
+    return kind or path.suffix.lower()
 
 
 def _parquet(path: Path) -> Table:
@@ -85,7 +100,7 @@ def _mat(path: Path, reading: Reading) -> Table:
     except TraceError:
         raise
     except NotImplementedError:
-        raise TraceError(f"{path}: is a MAT file of version 7.3; save it again with save(..., '-v7')") from None
+        return read_hdf5(path, reading)  # of version 7.3
     except Exception as error:  # scipy raises many types for a damaged file
         raise unreadable(path, "MAT", error) from None
     return table_of(path, {name: value for name, value in held.items() if not name.startswith("__")}, reading)

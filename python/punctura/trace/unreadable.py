@@ -6,7 +6,15 @@ from pathlib import Path
 
 from punctura.trace.trace import TraceError
 
-_BEGINNINGS = {"Parquet": b"PAR1", "MAT": b"MATLAB", "XLSX": b"PK", "TDMS": b"TDS", "ROS bag": b""}
+_BEGINNINGS = {
+    "Parquet": b"PAR1",
+    "MAT": b"MATLAB",
+    "XLSX": b"PK",
+    "XLS": b"\xd0\xcf\x11\xe0",
+    "HDF5": b"",
+    "TDMS": b"TDS",
+    "ROS bag": b"",
+}
 
 
 def unreadable(path: Path, kind: str, error: Exception) -> TraceError:

@@ -1,12 +1,13 @@
-"""Reads the sheets of a workbook (XLSX)."""
+"""Reads the sheets of a workbook: XLSX by openpyxl, XLS by xlrd."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import io
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
-from punctura.extras import optional
+from punctura.extras import MissingPackageError, optional
 from punctura.trace.clock import clock_column, clock_seconds, is_clock
 from punctura.trace.decimals import Decimal, decimal_in, numbers
 from punctura.trace.heading import column_names, first_row
@@ -20,20 +21,55 @@ from punctura.trace.trace import TraceError
 from punctura.trace.unreadable import unreadable
 
 
-def read_workbook(path: Path, reading: Reading) -> Table:
-    """The sheet that is stated, or the only one that can be a trace. Raises TraceError, OSError."""
-    load_workbook = optional("openpyxl", "identify", f"{path}: an XLSX file").load_workbook
+def read_workbook(path: Path, reading: Reading, old: bool) -> Table:
+    """The sheet that is stated, or the only one that can be a trace. Raises TraceError, OSError.
+
+    old: an XLS file, as Excel wrote it before 2007.
+    """
     try:
-        check_workbook(path)
-        book = load_workbook(path, read_only=True, data_only=True)
-        names = [sheet.title for sheet in book.worksheets]
-        wanted = names if reading.sheet is None else [wanted_sheet(path, names, reading.sheet)]
-        tables = {name: _table(path, list(_filled_rows(path, book[name])), reading.decimal) for name in wanted}
-    except TraceError:
+        with path.open("rb") as file:
+            names, rows_of = _old_sheets(path) if old else _sheets(path, file)
+            wanted = names if reading.sheet is None else [wanted_sheet(path, names, reading.sheet)]
+            tables = {name: _table(path, list(_filled_rows(path, rows_of(name))), reading.decimal) for name in wanted}
+    except (TraceError, MissingPackageError):
         raise
-    except Exception as error:  # openpyxl raises many types for a damaged file
-        raise unreadable(path, "XLSX", error) from None
+    except Exception as error:  # readers raise many types for a damaged file
+        raise unreadable(path, "XLS" if old else "XLSX", error) from None
     return only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+
+
+Rows = Iterable[Sequence[Any]]
+
+
+def _sheets(path: Path, file: IO[bytes]) -> tuple[list[str], Callable[[str], Rows]]:
+    """The names of the sheets of an XLSX file, and what reads the rows of one."""
+    load_workbook = optional("openpyxl", "identify", f"{path}: an XLSX file").load_workbook
+    check_workbook(path)
+    book = load_workbook(file, read_only=True, data_only=True)  # not the path: it may end in .xls
+
+    def rows_of(name: str) -> Rows:
+        sheet = book[name]
+        sheet.reset_dimensions()  # a file may state a sheet of a million rows and 16,384 columns
+        rows: Rows = sheet.iter_rows(values_only=True)
+        return rows
+
+    return [sheet.title for sheet in book.worksheets], rows_of
+
+
+def _old_sheets(path: Path) -> tuple[list[str], Callable[[str], Rows]]:
+    """As _sheets(), for an XLS file. Its sheets have at most 65,536 rows and 256 columns."""
+    reader = optional("xlrd", "formats", f"{path}: an XLS file")
+    book = reader.open_workbook(path, on_demand=True, logfile=io.StringIO(), ragged_rows=True)
+
+    def rows_of(name: str) -> Rows:
+        for row in book.sheet_by_name(name).get_rows():
+            yield [
+                reader.xldate_as_datetime(cell.value, book.datemode) if cell.ctype == reader.XL_CELL_DATE
+                else cell.value if cell.ctype in (reader.XL_CELL_NUMBER, reader.XL_CELL_TEXT) else None
+                for cell in row
+            ]  # fmt: skip
+
+    return book.sheet_names(), rows_of
 
 
 def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None) -> Table:
@@ -53,14 +89,13 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     return table
 
 
-def _filled_rows(path: Path, sheet: Any) -> Iterator[tuple[Any, ...]]:
+def _filled_rows(path: Path, rows: Rows) -> Iterator[tuple[Any, ...]]:
     """The rows of a sheet that hold something."""
-    sheet.reset_dimensions()  # a file may state a sheet of a million rows and 16,384 columns
     numbers = 0
-    for row in sheet.iter_rows(values_only=True):
-        width = max((i for i, cell in enumerate(row, 1) if cell is not None), default=0)
+    for row in rows:
+        width = max((i for i, cell in enumerate(row, 1) if cell not in (None, "")), default=0)
         numbers += width
         check_size(path, 0, width)
         check_size(path, numbers, 1)
         if width:
-            yield row[:width]
+            yield tuple(row[:width])

@@ -121,12 +121,6 @@ def test_a_stated_speed_gives_the_depth_and_a_turn_is_noticed(tmp_path):
         read_trace(tmp_path / "b.csv", speeds=[(0, speed)])
 
 
-def test_an_old_workbook_is_named(tmp_path):
-    (tmp_path / "a.xls").write_bytes(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600))
-    with pytest.raises(TraceError, match="Excel file of the kind before 2007; save it as XLSX"):
-        read_trace(tmp_path / "a.xls")
-
-
 def test_depth_and_force_in_two_files_are_joined_on_their_clock(tmp_path):
     clock = 1_700_000_000
     (tmp_path / "f.csv").write_text("\n".join(["time_s,force_N", *(f"{clock + t:.3f},{f!r}" for t, _, f in ROWS)]))

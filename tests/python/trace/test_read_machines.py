@@ -90,7 +90,7 @@ def test_many_lines_of_remarks_may_stand_below_the_table(tmp_path):
 
 def test_a_file_that_is_no_text_is_named(tmp_path):
     (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
-    with pytest.raises(TraceError, match="is no text, Parquet, MAT or XLSX file; export the table as CSV"):
+    with pytest.raises(TraceError, match="is no text, Parquet, MAT, XLSX or HDF5 file; export the table as CSV"):
         read_trace(tmp_path / "a.csv")
     (tmp_path / "b.csv").write_text("only,words\nare,here\n")
     with pytest.raises(TraceError, match="holds no rows of numbers"):

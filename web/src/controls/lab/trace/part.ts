@@ -9,7 +9,7 @@ import { traceDialog } from "./result.ts";
 const TRACE: Kind = {
   label: "File of a trace",
   button: "Choose a file…",
-  accept: ".csv,.txt,.tsv,.tra,.lvm,.json,.jsonl,.parquet,.mat,.xlsx,.xlsm,.tdms,.bag",
+  accept: ".csv,.txt,.tsv,.tra,.lvm,.json,.jsonl,.parquet,.mat,.xlsx,.xlsm,.xls,.h5,.hdf5,.tdms,.bag",
   help: "Force against depth as a machine writes it (CSV, XLSX, LVM, JSON, MAT), or a recording; at most 32 MB.",
   takes: (name) => !/\.toml$/i.test(name), // that is an exercise
   tab: "lab",
