@@ -120,7 +120,9 @@ def _pop(trace: Trace, pop: Pop, foot: int, end: int) -> PopNumbers:
 
 
 def _work(trace: Trace, rows: slice) -> float:
-    return float(np.trapezoid(trace.force[rows], trace.depth[rows]))
+    """The integral of the force over the depth, J."""
+    force, depth = trace.force[rows], trace.depth[rows]  # NumPy 1.26 has no np.trapezoid
+    return float(np.sum((force[1:] + force[:-1]) * np.diff(depth)) / 2)
 
 
 def _gradient(trace: Trace, foot: int, top: int) -> float | None:
