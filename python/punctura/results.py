@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 # A JSON object of any content: what a file of another version may hold, or a message before it is checked. A function
 # that knows the keys uses a TypedDict instead.
 JsonObject: TypeAlias = dict[str, Any]
+FoundEvent: TypeAlias = JsonObject  # the fields of punctura.events.Event, which checks them
+LawCurve: TypeAlias = JsonObject  # likewise of punctura.studio.wire.common.LawCurve
 
 
 class Quantiles(TypedDict):
@@ -43,32 +45,6 @@ class LoopReport(TypedDict):
     late: int
     period: Quantiles
     compute: Quantiles
-
-
-class LawCurve(TypedDict):
-    """The band of one membrane over the depth: m and N. obliquity: rad."""
-
-    name: str
-    obliquity: float
-    far_face: float
-    through: float
-    depth: list[float]
-    lower: list[float]
-    upper: list[float]
-
-
-class FoundEvent(TypedDict):
-    """The arguments of punctura.events.Event."""
-
-    what: Literal["touch", "pop", "out"]
-    membrane: int
-    name: str
-    tick: int
-    time: float
-    depth: float
-    force_before: float
-    force_after: float
-    drop: float
 
 
 DeviceState = Literal[

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -21,7 +21,8 @@ OF_PLUNGER = ("thumb", "pressure", "plunger")  # bands that only runs with a syr
 On = Literal["depth", "time"]
 
 
-class Summary(NamedTuple):
+@dataclass(frozen=True)
+class Summary:
     """A number over several runs. SI; None where there are too few runs."""
 
     n: int

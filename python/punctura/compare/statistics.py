@@ -44,17 +44,9 @@ class Statistics(BaseModel):
     thumb_peak: Finite | None  # N, largest model force of the thumb on the plunger; None without a syringe, as the next
     pressure_peak: Finite | None  # Pa, largest pressure in the syringe
     plunger_travel: Finite | None  # m, deepest place of the plunger
+    drop: Finite  # N, the largest one at a pop; 0 without a pop
+    overshoot: Finite | None  # m, the largest one; None without a pop
     pops: list[Pop]
-
-    @property
-    def drop(self) -> float:
-        """The largest drop at a pop, N; 0 without a pop."""
-        return max((pop.drop for pop in self.pops), default=0.0)
-
-    @property
-    def overshoot(self) -> float | None:
-        """The largest overshoot, m; None without a pop."""
-        return max((pop.overshoot for pop in self.pops if pop.overshoot is not None), default=None)
 
 
 FELT_S = 0.05  # s on either side of a pop in which the drop of the felt force is measured
@@ -64,6 +56,7 @@ def statistics(run: Run) -> Statistics:
     """The numbers of a run."""
     touch = run.touch
     felt = bool(np.isfinite(run.felt).any())
+    pops = _pops(run, float(run.time[touch]))
     inward = slice(touch, touch + int(np.nanargmax(run.depth[touch : run.out])) + 1)
     return Statistics(
         name=run.name,
@@ -76,7 +69,9 @@ def statistics(run: Run) -> Statistics:
         thumb_peak=_largest(run.thumb),
         pressure_peak=_largest(run.pressure),
         plunger_travel=_largest(run.plunger),
-        pops=_pops(run, float(run.time[touch])),
+        drop=max((pop.drop for pop in pops), default=0.0),
+        overshoot=max((pop.overshoot for pop in pops if pop.overshoot is not None), default=None),
+        pops=pops,
     )
 
 

@@ -1,25 +1,24 @@
 """Compares runs in a process of its own, at low priority: `python -m punctura.compare.worker`, for the studio.
 
-Reads one job as JSON from standard input. Writes JSON lines: {"share", "run"} before each run, then {"comparison"} or
-{"error"}.
+Reads one job as JSON from standard input. Writes a LabLine for each run; last, the result or the error.
 """
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal, TypedDict
+from typing import Literal, TypeAlias
 
 import numpy as np
 from pydantic import BaseModel, Field
 
 from punctura.compare.background import step_back
-from punctura.compare.comparison import Band, Collector, Comparison
+from punctura.compare.comparison import Band, Collector, Comparison, Summary
 from punctura.compare.motion import recorded_motion, stroke
 from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
+from punctura.compare.statistics import Statistics
 from punctura.compare.vary import vary
 from punctura.defects import PATIENCE_S, explain
 from punctura.record import Recording
@@ -28,7 +27,6 @@ from punctura.record.scene_text import from_text
 from punctura.results import JsonObject
 
 DIGITS = 6
-Tell = Callable[[float, str], None]
 
 
 class Variation(BaseModel):
@@ -50,46 +48,69 @@ class Job(BaseModel):
     zip: str = ""  # path of the zip file to write; without it, the comparison is printed
 
 
-class BandRecord(TypedDict):
-    """A quantity of all runs, and its mean, on a common axis. SI; None where there is no value."""
+class LabBand(BaseModel):
+    """A quantity of all runs, and its mean, on a common axis. SI, with DIGITS digits; None where there is no value."""
 
-    x: list[float | None]
+    x: list[float]
     runs: list[list[float | None]]
     mean: list[float | None]
-    deviation: list[float | None]
-    count: list[int]
+    deviation: list[float | None]  # n - 1
+    count: list[int]  # the number of runs that have a value
 
 
-class MembraneRecord(BandRecord):
+class MembraneBand(LabBand):
     """The resistance of a membrane."""
 
     name: str
 
 
-class CurvesRecord(TypedDict):
-    """The curves of a comparison."""
+class LabCurves(BaseModel):
+    """The curves of a comparison, as Comparison has them."""
 
-    bands: dict[str, BandRecord]
-    membranes: list[MembraneRecord]
-
-
-class CompareRecord(TypedDict):
-    """A comparison: the numbers of each run (Statistics), their differences and summary, and the curves."""
-
-    statistics: list[JsonObject]
-    differences: list[dict[str, float | None]]
-    summary: dict[str, JsonObject]
-    depth: CurvesRecord
-    time: CurvesRecord
+    bands: dict[str, LabBand]
+    membranes: list[MembraneBand]
 
 
-def do(job: Job, tell: Tell) -> CompareRecord | None:
-    """Does a job; returns the comparisons as JSON, against depth and against time; None if it wrote a zip file.
+class LabComparison(BaseModel):
+    """A comparison against depth and against time."""
+
+    statistics: list[Statistics]
+    differences: list[dict[str, float | None]]  # what each run's numbers have more than the first run's
+    summary: dict[str, Summary]
+    depth: LabCurves
+    time: LabCurves
+
+
+class LabProgress(BaseModel):
+    """The run that is computed now, and the share of the work that is done."""
+
+    share: float
+    run: str
+
+
+class LabResult(BaseModel):
+    """The last line."""
+
+    comparison: LabComparison
+
+
+class LabFailure(BaseModel):
+    """The last line of a computation that failed."""
+
+    error: str
+
+
+LabLine: TypeAlias = LabProgress | LabResult | LabFailure
+Report: TypeAlias = Callable[[LabProgress], None]
+
+
+def do(job: Job, report: Report) -> LabComparison | None:
+    """Does a job; returns the comparison; None if it wrote a zip file.
 
     Raises ValueError, RecordingError, OSError.
     """
     count = len(job.recordings) or len(job.variation.values if job.variation else [])
-    runs = _told(_varied(job.variation) if job.variation else _recorded(job.recordings), count, tell)
+    runs = _reported(_varied(job.variation) if job.variation else _recorded(job.recordings), count, report)
     if job.zip:
         from punctura.compare.bundle import check_ticks, save_bundle  # matplotlib takes long to import
 
@@ -102,18 +123,18 @@ def do(job: Job, tell: Tell) -> CompareRecord | None:
         for collector in collectors:
             collector.add(run)
     depth, time = (collector.comparison() for collector in collectors)
-    return {
-        "statistics": [one.model_dump() | {"drop": one.drop, "overshoot": one.overshoot} for one in depth.statistics],
-        "differences": [depth.difference(row) for row in range(count)],
-        "summary": {name: one._asdict() for name, one in depth.summary().items()},
-        "depth": as_json(depth),
-        "time": as_json(time),
-    }
+    return LabComparison(
+        statistics=depth.statistics,
+        differences=[depth.difference(row) for row in range(count)],
+        summary=depth.summary(),
+        depth=_curves(depth),
+        time=_curves(time),
+    )
 
 
-def _told(runs: Iterable[Run], count: int, tell: Tell) -> Iterator[Run]:
+def _reported(runs: Iterable[Run], count: int, report: Report) -> Iterator[Run]:
     for done, run in enumerate(runs):
-        tell(done / count, run.name)
+        report(LabProgress(share=done / count, run=run.name))
         yield run
 
 
@@ -134,16 +155,15 @@ def _varied(asked: Variation) -> Iterator[Run]:
     return vary(scene, asked.path, asked.values, motion)
 
 
-def as_json(comparison: Comparison) -> CurvesRecord:
-    """The curves of a comparison as JSON values, with DIGITS digits; null where there is no value."""
+def _curves(comparison: Comparison) -> LabCurves:
     each = zip(comparison.names, comparison.membranes, strict=False)
-    return {
-        "bands": {name: _band(band) for name, band in comparison.bands.items()},
-        "membranes": [{"name": name, **_band(band)} for name, band in each],
-    }
+    return LabCurves(
+        bands={name: LabBand(**_band(band)) for name, band in comparison.bands.items()},
+        membranes=[MembraneBand(name=name, **_band(band)) for name, band in each],
+    )
 
 
-def _band(band: Band) -> BandRecord:
+def _band(band: Band) -> JsonObject:
     return {
         "x": _numbers(band.x),
         "runs": [_numbers(row) for row in band.runs],
@@ -161,14 +181,14 @@ def main() -> None:
     """Does the job on standard input."""
     step_back()
 
-    def say(**words: Any) -> None:
-        print(json.dumps(words), flush=True)
+    def report(line: LabLine) -> None:
+        print(line.model_dump_json(), flush=True)
 
     try:
-        job = Job.model_validate_json(sys.stdin.read())
-        say(comparison=do(job, lambda share, run: say(share=share, run=run)) or {})
+        if comparison := do(Job.model_validate_json(sys.stdin.read()), report):
+            report(LabResult(comparison=comparison))
     except Exception as error:
-        say(error=explain(error, PATIENCE_S))
+        report(LabFailure(error=explain(error, PATIENCE_S)))
 
 
 if __name__ == "__main__":

@@ -8,12 +8,11 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Awaitable, Callable
-from dataclasses import asdict
 from pathlib import Path
 from urllib.parse import quote
 
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
 from punctura.defects import explain
@@ -25,7 +24,7 @@ from punctura.record import RecordingError, open_recording
 from punctura.record.pieces import export_pieces
 from punctura.studio.catalog import scene_outlines
 from punctura.studio.computing import LabError
-from punctura.studio.download import Download
+from punctura.studio.download import Download, json_of
 from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
@@ -90,10 +89,10 @@ class Api:
         ]
 
     def recordings(self, request: Request) -> Response:
-        return JSONResponse([asdict(entry) for entry in self._shelf.entries(but=self._session.recording)])
+        return json_of(self._shelf.entries(but=self._session.recording))
 
     def recording(self, request: Request) -> Response:
-        return JSONResponse(self._shelf.read(_name(request), lambda path: overview(open_recording(path))))
+        return json_of(self._shelf.read(_name(request), lambda path: overview(open_recording(path))))
 
     def ticks(self, request: Request) -> Response:
         return self._shelf.read(_name(request), _ticks_of)
@@ -106,8 +105,9 @@ class Api:
             start, points = math.nan, 0
         if not (math.isfinite(start) and FEWEST <= points <= MOST):
             return _sentence(400, f"from is a time in s, points a number from {FEWEST} to {MOST}.")
-        trace = self._shelf.read(_name(request), lambda path: thinned_trace(open_recording(path), start, points))
-        return JSONResponse(trace)
+        return json_of(
+            self._shelf.read(_name(request), lambda path: thinned_trace(open_recording(path), start, points))
+        )
 
     def delete(self, request: Request) -> Response:
         self._shelf.delete(_name(request), self._session.recording)
@@ -146,18 +146,16 @@ class Api:
         experts = {name: run for name, run in self._session.experts.all().items() if self._shelf.has(run)}
         run = self._session.run
         entries = self._session.exercises.overviews(run.loop.limits, run.thumb.limits if run.thumb else None)
-        return JSONResponse(
-            [entry.model_dump(mode="json") | {"expert": experts.get(entry.name, "")} for entry in entries]
-        )
+        return json_of([entry.model_copy(update={"expert": experts.get(entry.name, "")}) for entry in entries])
 
     def scenes(self, request: Request) -> Response:
-        return JSONResponse([scene.model_dump(mode="json") for scene in scene_outlines()])
+        return json_of(scene_outlines())
 
     def results(self, request: Request) -> Response:
-        return JSONResponse([result.model_dump(mode="json") for result in self._results.all(*_of_whom(request))])
+        return json_of(self._results.all(*_of_whom(request)))
 
     def result(self, request: Request) -> Response:
-        return JSONResponse(self._results.load(_name(request)).model_dump(mode="json"))
+        return json_of(self._results.load(_name(request)))
 
     def delete_result(self, request: Request) -> Response:
         self._results.delete(_name(request))

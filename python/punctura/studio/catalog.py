@@ -67,7 +67,7 @@ def ready_scenes() -> list[Choice]:
     return list(_ready_scenes())
 
 
-class Line(Part):
+class GoalLine(Part):
     """The line of an on_line goal."""
 
     point: Vector  # m
@@ -88,7 +88,7 @@ class ExerciseOverview(Part):
     space_from: float = 0.0  # where the space begins behind the far face of the first, m
     space_to: float | None = None  # where it ends, if at a depth, m
     goal_from: float = 0.0  # how deep the needle must come, m
-    line: Line | None = None  # that the point must meet
+    line: GoalLine | None = None  # that the point must meet
     expert: str = ""  # name of the recording that is the expert's run
     made: bool = False  # in the page; it can be deleted there
     blind: bool = False  # no needle and no depth are shown while it runs
@@ -228,11 +228,11 @@ def _overview(exercise: Exercise) -> ExerciseOverview:
     )
 
 
-def _line(exercise: Exercise) -> Line | None:
+def _line(exercise: Exercise) -> GoalLine | None:
     goal = next((goal for goal in exercise.goals if isinstance(goal, OnLine)), None)
     if goal is None:
         return None
-    return Line(point=[v * 1e-3 for v in goal.point_mm], along=goal.along, within=goal.within_mm * 1e-3)
+    return GoalLine(point=[v * 1e-3 for v in goal.point_mm], along=goal.along, within=goal.within_mm * 1e-3)
 
 
 def _on(exercise: Exercise, hands: Hands) -> ExerciseOverview:

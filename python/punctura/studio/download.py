@@ -1,4 +1,4 @@
-"""Responses that are produced while they are sent; some clients never read them."""
+"""Responses with JSON, and those that are produced while they are sent; some clients never read them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,14 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-from starlette.responses import StreamingResponse
+from pydantic_core import to_json
+from starlette.responses import Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
+
+
+def json_of(answer: object) -> Response:
+    """A model, or a list of models, of wire_schema.Answer."""
+    return Response(to_json(answer), media_type="application/json")
 
 
 class Download(StreamingResponse):

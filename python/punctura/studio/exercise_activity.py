@@ -10,7 +10,7 @@ from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.exercise.result import Status
 from punctura.studio.activity import Outcome
 from punctura.studio.heard import Heard
-from punctura.studio.wire.messages import ExerciseGoal, ExerciseStatus
+from punctura.studio.wire.messages import ExerciseStatus
 from punctura.ticks import Ticks
 
 LINGER_S = 1.0  # the recording goes on for this long after the decision and the last overshoot
@@ -85,17 +85,13 @@ class ExerciseActivity:
         status = self._attempt.status
         if running and self._exercise.file.blind and not self._attempt.over:
             status = self._blindfold(status)
+        tenths = {"held": _tenths(status.held), "time": _tenths(status.time)}
         return ExerciseStatus(
+            **dict(status) | tenths,
             exercise=self._exercise.name,
             running=running,
-            instruction=status.instruction,
-            goals=[ExerciseGoal(text=goal.text, state=goal.state) for goal in status.goals],
             result=result,
             blind=self._exercise.file.blind,
-            held=_tenths(status.held),
-            hold=status.hold,
-            time=_tenths(status.time),
-            time_limit=status.time_limit,
         )
 
     def _blindfold(self, status: Status) -> Status:

@@ -13,15 +13,16 @@ import numpy as np
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import QueryParams
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 
 from punctura.compare.comparison import On
 from punctura.compare.vary import MOST_RUNS
-from punctura.compare.worker import Job, Variation
+from punctura.compare.worker import Job, LabFailure, Variation
 from punctura.scene import scene_text
 from punctura.studio.computing import LabError, lines_of, take_place, worker
-from punctura.studio.download import Download
+from punctura.studio.download import Download, json_of
 from punctura.studio.session import Session
+from punctura.studio.wire.common import Part
 
 # Fields on which no curve of a comparison depends: the simulation has no thumb that presses the syringe.
 _OF_THE_SYRINGE = re.compile(r"syringe\.|membrane\[\d+\]\.(outflow|behind)_")
@@ -29,6 +30,14 @@ COMMAND = worker("punctura.compare.worker")
 CHUNK = 1 << 16
 KEPT_SCENES = 32  # of the last variations, for their zip files
 LONGEST_ID = 64
+
+
+class SceneField(Part):
+    """A field of the present scene that can be varied. SI."""
+
+    path: str
+    value: float
+    unit: str
 
 
 class Lab:
@@ -41,9 +50,9 @@ class Lab:
 
     def fields(self, request: Request) -> Response:
         """The fields of the present scene that can be varied, with their present values, SI."""
-        return JSONResponse(
+        return json_of(
             [
-                {"path": one.path, "value": one.value, "unit": one.unit}
+                SceneField(path=one.path, value=one.value, unit=one.unit)
                 for one in self._session.run.loaded.scene.fields()
                 if not _OF_THE_SYRINGE.match(one.path)
             ]
@@ -122,7 +131,7 @@ def _number(asked: QueryParams, name: str) -> float:
 
 def _lines(job: Job) -> Iterator[bytes]:
     """The worker's lines as they come."""
-    asked, failed = job.model_dump_json().encode(), lambda why: json.dumps({"error": why}).encode() + b"\n"
+    asked, failed = job.model_dump_json().encode(), lambda why: LabFailure(error=why).model_dump_json().encode() + b"\n"
     return lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording")
 
 

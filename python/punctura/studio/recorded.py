@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import struct
 from collections.abc import Iterator
-from typing import TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -16,13 +15,13 @@ from punctura.errors import ConfigurationError
 from punctura.events import find_events
 from punctura.record import Recording
 from punctura.record.schema import ticks_of
-from punctura.results import JsonObject
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
 from punctura.studio.view import scene_view
-from punctura.studio.wire.common import LawCurve
+from punctura.studio.wire.common import LawCurve, Part, SceneView
 from punctura.studio.wire.frames import encode_ticks
+from punctura.studio.wire.messages import MembraneEvent
 from punctura.ticks import ABSENT, INSIDE, Ticks
 
 MOTION_HZ = 250.0  # sampling rate of a recorded motion for the hand; Target smooths between the samples
@@ -50,30 +49,26 @@ def _text_of(recording: Recording) -> str:
     return scene_text(recording.info.scene)
 
 
-class OverviewRecord(TypedDict):
+class RecordingOverview(Part):
     """A recording without its ticks."""
 
-    info: JsonObject  # the header of the file
-    scene: JsonObject  # SceneMessage
-    events: list[JsonObject]  # EventMessage
+    scene: SceneView
+    events: list[MembraneEvent]
     ticks: int
     first_tick: int
 
 
-def overview(recording: Recording) -> OverviewRecord:
-    """All except the ticks, as JSON. Reads the whole recording to find its events."""
+def overview(recording: Recording) -> RecordingOverview:
+    """All except the ticks. Reads the whole recording to find its events."""
     info = recording.info
     loaded = loaded_of(recording)
     view = scene_view(loaded, 0, info.scene.servo.rate, _scale(recording), _laws(loaded.scene, recording))
-    events = [{"kind": "event", **event.model_dump()} for event in find_events(recording)]
-    data = {key: value for key, value in info.data.items() if key not in ("scene", "about")}
-    return {
-        "info": data | {"about": info.about, "notes": list(recording.notes), "finished": recording.finished},
-        "scene": view.model_dump(mode="json"),
-        "events": events,
-        "ticks": recording.rows,
-        "first_tick": max(0, recording.summary.first_tick),
-    }
+    return RecordingOverview(
+        scene=view,
+        events=[MembraneEvent(**dict(event)) for event in find_events(recording)],
+        ticks=recording.rows,
+        first_tick=max(0, recording.summary.first_tick),
+    )
 
 
 def _scale(recording: Recording) -> float:

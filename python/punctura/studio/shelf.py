@@ -38,7 +38,7 @@ class Busy(ValueError):
 
 
 @dataclass(frozen=True)
-class Entry:
+class RecordingEntry:
     """One entry of the list of recordings."""
 
     name: str
@@ -48,7 +48,7 @@ class Entry:
     ticks: int
     lost: int
     scene: str
-    exercise: str
+    exercise: str  # empty if it is no attempt
     finished: bool
 
 
@@ -64,7 +64,7 @@ class Shelf:
         """The folder is created with the first recording. Hidden files of killed processes are removed."""
         self.folder = folder
         self._sweep()
-        self._known: dict[Path, tuple[tuple[int, int], Entry]] = {}  # by size and time of change
+        self._known: dict[Path, tuple[tuple[int, int], RecordingEntry]] = {}  # by size and time of change
 
     def _sweep(self) -> None:
         """Removes hidden files of exports and of unnamed recordings, unless somebody may still write them."""
@@ -135,7 +135,7 @@ class Shelf:
             raise Busy("it is being recorded; stop it first")
         path.unlink()
 
-    def entries(self, but: str = "") -> list[Entry]:
+    def entries(self, but: str = "") -> list[RecordingEntry]:
         """All readable recordings, the latest first. but: the name of the running one, which is left out."""
         found = []
         for path in sorted(self.folder.iterdir()) if self.folder.is_dir() else ():
@@ -147,7 +147,7 @@ class Shelf:
                 found.append(entry)
         return sorted(found, key=lambda e: (e.started, e.name), reverse=True)
 
-    def _entry(self, name: str, path: Path) -> Entry | None:
+    def _entry(self, name: str, path: Path) -> RecordingEntry | None:
         try:
             if safe_name(name) != name or path.is_symlink() or not path.is_file():
                 return None
@@ -178,12 +178,12 @@ class Shelf:
             return now
 
 
-def entry_of(name: str, recording: Recording) -> Entry:
+def entry_of(name: str, recording: Recording) -> RecordingEntry:
     """Raises RecordingError."""
     info = recording.info
     about = info.about
     ticks = recording.summary.last_tick - recording.summary.first_tick + 1 if recording.rows else 0
-    return Entry(
+    return RecordingEntry(
         name=name,
         title=str(about.get("title") or name),
         started=info.said.began,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -15,8 +14,8 @@ from punctura.compare.run import resistance
 from punctura.events import EventFinder
 from punctura.events.recorded import recorded_ticks
 from punctura.record import Recording
-from punctura.results import JsonObject
 from punctura.studio.view import membrane_views
+from punctura.studio.wire.common import Finite, MembraneView, Part
 from punctura.ticks import Columns
 
 FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer; MOST rows are below 100 kB
@@ -25,20 +24,18 @@ MOST_EVENTS = 40  # events at which a bucket ends, so that rows between two even
 Array = npt.NDArray[np.float64]
 
 
-class TraceRecord(TypedDict):
+class RecordingTrace(Part):
     """A drawing of a recording. None: a gap."""
 
-    time: list[float | None]
-    depth: list[float | None]
-    force: list[float | None]
-    membranes: list[JsonObject]  # MembraneView
+    time: list[Finite]  # s, of the run
+    depth: list[Finite | None]  # m, of the tip below the first surface
+    force: list[Finite | None]  # N, size of the model's total force, negative if it pulls the needle in
+    membranes: list[MembraneView]
 
 
-def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> TraceRecord:
-    """The trace from `start` (s of the run) on, as JSON values. Raises RecordingError.
-
-    time: of the run, s. depth: of the tip below the first surface, m. force: size of the model's total force, N,
-    negative if it pulls the needle in; its maximum is an exercise's `peak_force`.
+def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> RecordingTrace:
+    """The trace from `start` (s of the run) on. The maximum of its force is an exercise's `peak_force`. Raises
+    RecordingError.
 
     Each bucket of ticks keeps its first and last row, and those of the lowest and highest depth and force. A bucket
     ends at each of the first MOST_EVENTS events. A row of nulls breaks the curves at lost ticks.
@@ -50,12 +47,12 @@ def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL)
     thin = _Thinner(size)
     kept = [thin.add(*part) for part in _rows(recording, start)]
     rows = np.concatenate([*kept, thin.end()])
-    return {
-        "time": _rounded(rows[:, 0], 5),
-        "depth": _rounded(rows[:, 1], 7),
-        "force": _rounded(rows[:, 2], 5),
-        "membranes": [view.model_dump(mode="json") for view in membrane_views(info.scene)],
-    }
+    return RecordingTrace(
+        time=rows[:, 0].round(5).tolist(),
+        depth=_rounded(rows[:, 1], 7),
+        force=_rounded(rows[:, 2], 5),
+        membranes=membrane_views(info.scene),
+    )
 
 
 def _rounded(values: Array, digits: int) -> list[float | None]:

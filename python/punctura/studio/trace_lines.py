@@ -69,10 +69,7 @@ def trace_line(trace: Trace) -> TraceLine:
         contact=None if segments.contact is None else float(trace.depth[segments.contact]),
         pops=[pop.depth for pop in segments.pops],
         curves=_curves(trace, None),
-        findings=[
-            FindingPart(kind=one.kind, text=one.text, repaired=one.repaired, severe=one.severe)
-            for one in trace.findings
-        ],
+        findings=[FindingPart(kind=one.kind, text=one.text) for one in trace.findings],
     )
 
 

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from dataclasses import astuple
 
 import numpy as np
 import punctura as pn
@@ -99,7 +100,7 @@ def test_mean_and_deviation_are_those_of_the_runs_at_each_place(runs):
             assert band.stretches == sorted(places, key=lambda place: place.start)
     peaks = [one.peak for one in compare(runs).statistics]
     summary = compare(runs).summary()["peak"]
-    assert summary == (3, pytest.approx(np.mean(peaks)), pytest.approx(np.std(peaks, ddof=1)))
+    assert astuple(summary) == (3, pytest.approx(np.mean(peaks)), pytest.approx(np.std(peaks, ddof=1)))
 
 
 def test_against_depth_a_curve_has_the_value_of_the_first_passage(runs):
@@ -187,19 +188,19 @@ def test_a_recording_that_is_finished_while_a_job_reads_it_is_read_all_the_same(
         monkeypatch.setattr(Recording, "batches", just_before)
     runs = [("one", str(part))]
     if job == "runs":
-        assert do(Job(recordings=runs), lambda share, run: None)["statistics"][0]["name"] == "one"
+        assert do(Job(recordings=runs), lambda line: None).statistics[0].name == "one"
     elif job == "zip":
-        assert do(Job(recordings=runs, zip=str(tmp_path / "one.zip")), lambda share, run: None) is None
+        assert do(Job(recordings=runs, zip=str(tmp_path / "one.zip")), lambda line: None) is None
         assert (tmp_path / "one.zip").exists()
     else:
         moved = Variation(scene=scene_text(scene), path=PATH, values=[300.0], recording=str(part))
-        assert len(do(Job(variation=moved), lambda share, run: None)["statistics"]) == 1
+        assert len(do(Job(variation=moved), lambda line: None).statistics) == 1
     assert whole.exists() and not part.exists()
 
 
 def test_a_recording_that_is_not_there_is_named(tmp_path):
     with pytest.raises(RecordingError, match=r"one\.parquet\.part: there is no such file"):
-        do(Job(recordings=[("one", str(tmp_path / "one.parquet.part"))]), lambda share, run: None)
+        do(Job(recordings=[("one", str(tmp_path / "one.parquet.part"))]), lambda line: None)
 
 
 def test_the_zip_file_has_figure_data_scenes_and_how_to_cite(tmp_path, runs):

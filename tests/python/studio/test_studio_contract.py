@@ -12,7 +12,7 @@ from punctura.live.limit_words import CUTS, LIMIT_WORDS
 from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
 from punctura.studio.wire.frames import NUMBERS, WORDS
 from punctura.studio.wire.messages import Message
-from punctura.studio.wire.schema import wire_schema
+from punctura.studio.wire_schema import wire_schema
 from punctura.ticks import Ticks
 from punctura.ticks.fields import shape_of
 from pydantic import TypeAdapter, ValidationError

@@ -1,8 +1,8 @@
 import { tellAwake } from "../hand/awake.ts";
 import { element, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
-import { type ExerciseOverview, type ExerciseResult, resultPath } from "../wire/files.ts";
-import type { ProblemPart } from "../wire/messages.ts";
+import { resultPath } from "../wire/api.ts";
+import type { ExerciseOverview, ProblemPart, Result } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
 import { expertChoice } from "./exercises/expert.ts";
@@ -33,11 +33,11 @@ export const exercisesPanel: Panel = (host, app) => {
       person: person.name.value,
       group: person.group.value,
     });
-    if (reply && !reply.ok && reply.problems?.length)
+    if (reply && !reply.ok && reply.problems.length)
       app.say(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
     await readList(); // an exercise file may have changed
   };
-  const open = (result: ExerciseResult): void => {
+  const open = (result: Result): void => {
     const again = app.control.value.you && of(result.exercise) ? () => void start(result.exercise) : null;
     openResult(app, result, titleOf(result.exercise, result.title), of(result.exercise), again, () => void readList());
   };
@@ -125,7 +125,7 @@ export const exercisesPanel: Panel = (host, app) => {
       return;
     }
     try {
-      open(await app.api.json<ExerciseResult>(resultPath(status.result)));
+      open(await app.api.json<Result>(resultPath(status.result)));
     } catch (error) {
       app.say(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
     }

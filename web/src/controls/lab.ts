@@ -1,5 +1,5 @@
 import { element, type Panel } from "../panel.ts";
-import type { ExerciseResult, RecordingEntry, SceneField } from "../wire/files.ts";
+import type { RecordingEntry, Result, SceneField } from "../wire/messages.ts";
 import { estimatePart } from "./lab/estimate.ts";
 import { compute, type Job } from "./lab/job.ts";
 import { pickRuns } from "./lab/pick.ts";
@@ -54,7 +54,7 @@ const comparisons: Panel = (host, app) => {
     try {
       const [entries, results] = await Promise.all([
         app.api.json<RecordingEntry[]>("/api/recordings"),
-        app.api.json<ExerciseResult[]>("/api/results"),
+        app.api.json<Result[]>("/api/results"),
       ]);
       picked.offer(entries, results);
       const fields = await app.api.json<SceneField[]>("/api/lab/fields");

@@ -9,6 +9,8 @@ export type Connection =
   | { readonly state: "refused"; readonly reason: string };
 
 export type Reply = Extract<Message, { kind: "reply" }>;
+export type Answer = Omit<Reply, "kind" | "id">;
+export const DONE: Answer = { ok: true, text: "", problems: [], data: {} };
 type Without<T> = T extends { id: number } ? Omit<T, "id"> : never;
 /** A request as a panel writes it; the engine numbers it. */
 export type Ask = Without<Request>;

@@ -1,4 +1,4 @@
-import type { LabBand } from "../wire/files.ts";
+import type { LabBand } from "../wire/messages.ts";
 import type { Pane } from "./kit/axes.ts";
 import type { Pen, Stroke } from "./kit/pen.ts";
 import { Polyline } from "./kit/polyline.ts";

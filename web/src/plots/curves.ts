@@ -2,7 +2,7 @@ import type { History } from "../state/history.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
-import type { LabComparison } from "../wire/files.ts";
+import type { LabComparison } from "../wire/messages.ts";
 import { isCompared } from "./gather.ts";
 import { type Curve, Hidden } from "./kit/legend.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";

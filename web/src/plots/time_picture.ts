@@ -1,5 +1,5 @@
 import type { Source } from "../state/source.ts";
-import type { LabComparison } from "../wire/files.ts";
+import type { LabComparison } from "../wire/messages.ts";
 import type { Hidden } from "./kit/legend.ts";
 import type { Window } from "./window.ts";
 

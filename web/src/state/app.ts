@@ -1,13 +1,14 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
 import { ticksCame } from "../frames.ts";
 import { Api } from "../wire/api.ts";
-import type { GoalLine, LabComparison } from "../wire/files.ts";
 import type {
   Control,
   EstimateMessage,
   ExerciseStatus,
   FaultMessage,
+  GoalLine,
   Hello,
+  LabComparison,
   Message,
   RecordingStatus,
   Status,
@@ -79,7 +80,7 @@ export class App {
   async ask(request: Ask): Promise<Reply | null> {
     try {
       const reply = await this.engine.ask(request);
-      if (!reply.ok && reply.problems?.length === 0) this.say(reply.text ?? "refused");
+      if (!reply.ok && reply.problems.length === 0) this.say(reply.text || "refused");
       return reply;
     } catch (error) {
       this.say(error instanceof Error ? error.message : String(error));

@@ -1,5 +1,8 @@
 /** The studio's files over HTTP: scenes, recordings and results. Every request carries the page's token. */
 
+export const recordingPath = (name: string): string => `/api/recordings/${encodeURIComponent(name)}`;
+export const resultPath = (name: string): string => `/api/results/${encodeURIComponent(name)}`;
+
 export class ApiError extends Error {
   /** status: HTTP status of the answer; 0 without an answer. */
   constructor(

@@ -1,4 +1,4 @@
-// Made by npm run types, from python/punctura/studio/wire.
+// Made by npm run types, from the models of python/punctura/studio/wire_schema.py.
 
 export type Message =
   | Hello
@@ -40,11 +40,22 @@ export type Request =
   | DeleteExercise
   | TripFault;
 export type IdentifyLine = FileLine | StepLine | TraceLine | FitLine | RivalsLine | ReportLine | ErrorLine;
+export type LabLine = LabProgress | LabResult | LabFailure;
+export type Answer =
+  | RecordingEntry
+  | RecordingOverview
+  | RecordingTrace
+  | ExerciseOverview
+  | SceneOutline
+  | Result
+  | SceneField;
 
 export interface Wire {
   message: Message;
   request: Request;
   identify_line: IdentifyLine;
+  lab_line: LabLine;
+  answer: Answer;
 }
 /**
  * First on every connection.
@@ -118,7 +129,7 @@ export interface SceneView {
     [k: string]: unknown;
   };
   lumen: number[];
-  syringe?: SyringeView | null;
+  syringe: SyringeView | null;
 }
 /**
  * One membrane as the page draws it, SI.
@@ -251,7 +262,6 @@ export interface FaultMessage {
  * An event at a membrane.
  */
 export interface MembraneEvent {
-  kind: "event";
   what: "touch" | "pop" | "out";
   membrane: number;
   name: string;
@@ -261,6 +271,7 @@ export interface MembraneEvent {
   force_before: number;
   force_after: number;
   drop: number;
+  kind: "event";
 }
 /**
  * The live estimate: what depth and force alone tell. Four times a second while it is on.
@@ -299,22 +310,28 @@ export interface RecordingStatus {
   trouble: string;
 }
 /**
- * The state of an exercise; `running` is false without one and after its end.
+ * The state of an exercise; `running` is false without one and after its end. Times in tenths.
  */
 export interface ExerciseStatus {
+  instruction: string;
+  goals: GoalState[];
+  held: number;
+  hold: number;
+  time: number;
+  time_limit: number | null;
   kind: "exercise";
   exercise: string;
   running: boolean;
-  instruction: string;
-  goals: ExerciseGoal[];
   result: string;
-  blind?: boolean;
-  held?: number;
-  hold?: number;
-  time?: number;
-  time_limit?: number | null;
+  blind: boolean;
 }
-export interface ExerciseGoal {
+/**
+ * A goal as a sentence, and its state.
+ *
+ * At the end a limit that was kept is met, if it was measured; else it is `not measured`, and a reason says why. What
+ * was not decided is open.
+ */
+export interface GoalState {
   text: string;
   state: "open" | "met" | "missed" | "not measured";
 }
@@ -325,9 +342,9 @@ export interface Reply {
   kind: "reply";
   id: number;
   ok: boolean;
-  text?: string;
-  problems?: ProblemPart[];
-  data?: {
+  text: string;
+  problems: ProblemPart[];
+  data: {
     [k: string]: string | number;
   };
 }
@@ -626,8 +643,6 @@ export interface CurvesPart {
 export interface FindingPart {
   kind: string;
   text: string;
-  repaired: boolean;
-  severe: boolean;
 }
 /**
  * The identified membranes.
@@ -707,5 +722,335 @@ export interface ReportLine {
 export interface ErrorLine {
   kind: "error";
   text: string;
-  field?: string;
+  field: string;
+}
+/**
+ * The run that is computed now, and the share of the work that is done.
+ */
+export interface LabProgress {
+  share: number;
+  run: string;
+}
+/**
+ * The last line.
+ */
+export interface LabResult {
+  comparison: LabComparison;
+}
+/**
+ * A comparison against depth and against time.
+ */
+export interface LabComparison {
+  statistics: Statistics[];
+  differences: {
+    [k: string]: number | null;
+  }[];
+  summary: {
+    [k: string]: Summary;
+  };
+  depth: LabCurves;
+  time: LabCurves;
+}
+/**
+ * The numbers of a run. SI.
+ */
+export interface Statistics {
+  name: string;
+  duration: number;
+  depth: number;
+  peak: number;
+  felt_peak: number | null;
+  work: number;
+  felt_work: number | null;
+  thumb_peak: number | null;
+  pressure_peak: number | null;
+  plunger_travel: number | null;
+  drop: number;
+  overshoot: number | null;
+  pops: Pop[];
+}
+/**
+ * A pop of a run. SI.
+ */
+export interface Pop {
+  membrane: number;
+  name: string;
+  time: number;
+  drop: number;
+  felt_drop: number | null;
+  overshoot: number | null;
+}
+/**
+ * A number over several runs. SI; None where there are too few runs.
+ */
+export interface Summary {
+  n: number;
+  mean: number | null;
+  deviation: number | null;
+}
+/**
+ * The curves of a comparison, as Comparison has them.
+ */
+export interface LabCurves {
+  bands: {
+    [k: string]: LabBand;
+  };
+  membranes: MembraneBand[];
+}
+/**
+ * A quantity of all runs, and its mean, on a common axis. SI, with DIGITS digits; None where there is no value.
+ */
+export interface LabBand {
+  x: number[];
+  runs: (number | null)[][];
+  mean: (number | null)[];
+  deviation: (number | null)[];
+  count: number[];
+}
+/**
+ * The resistance of a membrane.
+ */
+export interface MembraneBand {
+  x: number[];
+  runs: (number | null)[][];
+  mean: (number | null)[];
+  deviation: (number | null)[];
+  count: number[];
+  name: string;
+}
+/**
+ * The last line of a computation that failed.
+ */
+export interface LabFailure {
+  error: string;
+}
+/**
+ * One entry of the list of recordings.
+ */
+export interface RecordingEntry {
+  name: string;
+  title: string;
+  started: string;
+  seconds: number;
+  ticks: number;
+  lost: number;
+  scene: string;
+  exercise: string;
+  finished: boolean;
+}
+/**
+ * A recording without its ticks.
+ */
+export interface RecordingOverview {
+  scene: SceneView;
+  events: MembraneEvent[];
+  ticks: number;
+  first_tick: number;
+}
+/**
+ * A drawing of a recording. None: a gap.
+ */
+export interface RecordingTrace {
+  time: number[];
+  depth: (number | null)[];
+  force: (number | null)[];
+  membranes: MembraneView[];
+}
+/**
+ * An exercise as the page lists it. SI.
+ */
+export interface ExerciseOverview {
+  name: string;
+  title: string;
+  description: string;
+  instruction: string;
+  scene: string;
+  space_name: string;
+  space: number[];
+  space_from: number;
+  space_to: number | null;
+  goal_from: number;
+  line: GoalLine | null;
+  expert: string;
+  made: boolean;
+  blind: boolean;
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  start_position: [number, number, number];
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  start_axis: [number, number, number];
+  goals: string[];
+  problems: ProblemPart[];
+  warnings: ProblemPart[];
+  unfelt: string;
+  note: string;
+}
+/**
+ * The line of an on_line goal.
+ */
+export interface GoalLine {
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  point: [number, number, number];
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  along: [number, number, number];
+  within: number;
+}
+/**
+ * A ready scene for the making of an exercise. SI.
+ */
+export interface SceneOutline {
+  name: string;
+  title: string;
+  tip_length: number;
+  syringe: boolean;
+  membranes: MembraneView[];
+}
+/**
+ * A result; punctura.exercise.results saves it. `name` is the name of the saved file, empty before.
+ */
+export interface Result {
+  format: number;
+  name: string;
+  exercise: string;
+  title: string;
+  scene: string;
+  person: string;
+  group: string;
+  recording: string;
+  date: string;
+  version: string;
+  passed: boolean;
+  withheld: string;
+  reasons: string[];
+  goals: GoalState[];
+  metrics: Metrics;
+  events: Event[];
+  coaching: Coaching;
+}
+/**
+ * Measures up to the decision (overshoots: to the end of their seconds), SI. None: not available.
+ */
+export interface Metrics {
+  entries: number;
+  peak_force: number;
+  peak_felt_force: number | null;
+  force_scale: number;
+  losses: Loss[];
+  yields: Yield[];
+  overshoot: Overshoot[];
+  dwell: number;
+  longest_stay: number;
+  path_length: number | null;
+  net_distance: number | null;
+  straightness: number | null;
+  lateral_deviation: number | null;
+  entry_angle: number | null;
+  time_to_target: number | null;
+  total_time: number;
+  lost_ticks: number;
+  force_cut: {
+    [k: string]: number;
+  };
+  page_late: number;
+  force_off: number;
+}
+/**
+ * The loss of resistance at a pop. Forces are along the needle.
+ *
+ * before: at the membrane's largest resistance, as far as the limits permitted it until the pop. after: at the pop.
+ */
+export interface Loss {
+  before: number;
+  after: number;
+  model_before: number;
+  model_after: number;
+  force_scale: number;
+  needed: number | null;
+  membrane: number;
+  name: string;
+  time: number;
+}
+/**
+ * The plunger of the syringe gave way under the thumb. Forces are the model's on the thumb, N.
+ */
+export interface Yield {
+  time: number;
+  push: number;
+  push_after: number | null;
+  loss: PlungerLoss | null;
+  injected: number;
+  seconds: number;
+}
+/**
+ * The loss of resistance at the plunger, from a second device. Forces are on the thumb.
+ *
+ * before: in the last tick before the point came out behind the membrane. after: the least in the time of a hand's
+ * reaction after the plunger gave way, for a thumb that is not drawn back.
+ */
+export interface PlungerLoss {
+  before: number;
+  after: number;
+  model_before: number;
+  model_after: number;
+  force_scale: number;
+  needed: number | null;
+  name: string;
+  drawn_back: boolean;
+}
+/**
+ * How far the tip moved on behind a membrane in the seconds after its pop.
+ */
+export interface Overshoot {
+  membrane: number;
+  name: string;
+  time: number;
+  distance: number;
+  seconds: number;
+}
+/**
+ * An event, in SI units. Forces are the model's, along the needle, before safety limits. Only a pop has forces.
+ */
+export interface Event {
+  what: "touch" | "pop" | "out";
+  membrane: number;
+  name: string;
+  tick: number;
+  time: number;
+  depth: number;
+  force_before: number;
+  force_after: number;
+  drop: number;
+}
+/**
+ * The coach's words about one attempt, the most important first. Empty if there is nothing to say.
+ */
+export interface Coaching {
+  good: Remark[];
+  change: Remark[];
+}
+export interface Remark {
+  about: string;
+  text: string;
+  numbers: {
+    [k: string]: number;
+  };
+}
+/**
+ * A field of the present scene that can be varied. SI.
+ */
+export interface SceneField {
+  path: string;
+  value: number;
+  unit: string;
 }

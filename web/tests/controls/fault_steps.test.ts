@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import { nextStep, waitingFor } from "../../src/controls/fault_steps.ts";
-import type { Ask, Engine, EngineListener } from "../../src/engine/engine.ts";
+import { type Ask, DONE, type Engine, type EngineListener } from "../../src/engine/engine.ts";
 import { App } from "../../src/state/app.ts";
 import { inTissue } from "../../src/state/tissue.ts";
 import type { Hello, Message, SceneView, Status } from "../../src/wire/messages.ts";
@@ -31,7 +31,7 @@ beforeEach(() => {
     target: () => {},
     ask: async (request) => {
       asked.push(request);
-      return { kind: "reply", id: 0, ok: true };
+      return { kind: "reply", id: 0, ...DONE };
     },
   };
   app = new App(engine);

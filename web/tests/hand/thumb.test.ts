@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
-import type { Ask, Engine, EngineListener } from "../../src/engine/engine.ts";
+import { type Ask, DONE, type Engine, type EngineListener } from "../../src/engine/engine.ts";
 import { FIRM, Thumb } from "../../src/hand/thumb.ts";
 import { App } from "../../src/state/app.ts";
 import { Source } from "../../src/state/source.ts";
@@ -35,7 +35,7 @@ beforeEach(() => {
     },
     ask: async (request: Ask) => {
       if (request.do === "push_plunger") sent.push(request.force);
-      return { kind: "reply", id: 1, ok: true };
+      return { kind: "reply", id: 1, ...DONE };
     },
   };
   app = new App(engine as Engine);

@@ -2,7 +2,7 @@ import { Color, type Mesh, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { bandOf, GoalMark } from "../../src/scene/goal_mark.ts";
 import type { Theme } from "../../src/scene/theme.ts";
-import type { SceneView } from "../../src/wire/messages.ts";
+import type { GoalLine, SceneView } from "../../src/wire/messages.ts";
 
 const theme = { watch: (act: () => void) => act(), color: () => new Color("green") } as unknown as Theme;
 const scene = {
@@ -27,7 +27,7 @@ test("the band lies between the goal's depths, below the first surface", () => {
 
 test("the band of a line lies around the line, as wide as the point may be beside it", () => {
   const mark = new GoalMark(theme);
-  const line = { point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 };
+  const line: GoalLine = { point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 };
   mark.show({ name: "a", top: 0.005, bottom: 0.008, line }, scene, 10);
   const band = mark.group.children[0] as Mesh;
   expect(band.position.x).toBeCloseTo(0);

@@ -24,7 +24,7 @@ function wordsAt(tick: number, pressed = 0.1): string {
     blood: 0,
     pressed,
     plunger: plungerOf(moment),
-    syringe: syringeSize({}),
+    syringe: syringeSize({ syringe: null }),
     content: "epidural space",
   });
 }

@@ -1,4 +1,4 @@
-import type { Ask, Engine, EngineListener, Reply, Triple } from "../../src/engine/engine.ts";
+import { type Ask, DONE, type Engine, type EngineListener, type Reply, type Triple } from "../../src/engine/engine.ts";
 import type { MembraneEvent, Spread } from "../../src/wire/messages.ts";
 import type { FloatColumn, TickBatch } from "../../src/wire/ticks.ts";
 import { rowWidth } from "../../src/wire/ticks.ts";
@@ -66,7 +66,7 @@ export class FakeEngine implements Engine {
   }
   ask(request: Ask): Promise<Reply> {
     if (request.do === "compare") this.compare = request.on;
-    return Promise.resolve({ kind: "reply", id: 0, ok: true, problems: [] });
+    return Promise.resolve({ kind: "reply", id: 0, ...DONE });
   }
   target(_run: number, _position: Triple, _axis: Triple): void {}
 

@@ -91,6 +91,7 @@ export function fakeScene(membranes: readonly FakeMembrane[]): SceneView {
     solver: "exact",
     rate: 1600,
     force_scale: 1,
+    syringe: null,
     membranes: membranes.map((m, i) => ({
       name: m.name,
       point: [0, -m.place, 0],

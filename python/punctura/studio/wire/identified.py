@@ -66,8 +66,6 @@ class FindingPart(Part):
 
     kind: str  # one word
     text: str
-    repaired: bool
-    severe: bool  # no model is fitted
 
 
 class TraceLine(Part):

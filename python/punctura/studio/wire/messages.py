@@ -6,6 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from punctura.events import Event
+from punctura.exercise.result import Status as AttemptStatus
 from punctura.studio.wire.common import Finite, LawCurve, Part, ProblemPart, SceneView, Vector
 from punctura.studio.wire.requests import Request, parse_request
 
@@ -139,19 +141,10 @@ class FaultMessage(Part):
     kept: int  # ticks before it: GET /api/fault.csv
 
 
-class MembraneEvent(Part):
+class MembraneEvent(Event):
     """An event at a membrane."""
 
     kind: Literal["event"] = "event"
-    what: Literal["touch", "pop", "out"]  # the tip comes in; is through; has left it
-    membrane: int
-    name: str
-    tick: int
-    time: Finite  # s
-    depth: Finite  # m
-    force_before: Finite  # N, the largest resistance before the pop
-    force_after: Finite  # N, of the shaft alone
-    drop: Finite  # N
 
 
 class Estimated(Part):
@@ -191,25 +184,14 @@ class RecordingStatus(Part):
     trouble: str
 
 
-class ExerciseGoal(Part):
-    text: str
-    state: Literal["open", "met", "missed", "not measured"]
-
-
-class ExerciseStatus(Part):
-    """The state of an exercise; `running` is false without one and after its end."""
+class ExerciseStatus(AttemptStatus):
+    """The state of an exercise; `running` is false without one and after its end. Times in tenths."""
 
     kind: Literal["exercise"] = "exercise"
     exercise: str
     running: bool
-    instruction: str
-    goals: list[ExerciseGoal]
     result: str  # the name of the saved result, after the end
     blind: bool = False  # the page shows no needle and no depth while it runs
-    held: Finite = 0.0  # s, the present stay in the space, in tenths
-    hold: Finite = 0.0  # s, the stay that is asked for; 0 without one
-    time: Finite = 0.0  # s since the first contact, in tenths
-    time_limit: Finite | None = None  # s
 
 
 class Reply(Part):

@@ -99,6 +99,6 @@ export class Draft {
     const reply = await this.app.ask({ do: "edit", tables });
     if (!reply) return [{ path: "", value: "", reason: "the change was not sent: no connection" }];
     if (reply.ok) return [];
-    return reply.problems?.length ? reply.problems : [{ path: "", value: "", reason: reply.text || "refused" }];
+    return reply.problems.length ? reply.problems : [{ path: "", value: "", reason: reply.text || "refused" }];
   }
 }

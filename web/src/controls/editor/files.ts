@@ -49,11 +49,8 @@ async function loadFile(app: App, file: File): Promise<string[]> {
   const reply = await app.ask({ do: "load_text", toml });
   if (!reply) return [`${file.name} was not loaded: no connection.`];
   if (reply.ok) return [];
-  const problems = (reply.problems ?? []).map(({ path, value, reason }) =>
+  const problems = reply.problems.map(({ path, value, reason }) =>
     path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${reason}` : reason,
   );
-  return [
-    `${file.name} was not loaded; the run continues unchanged.`,
-    ...(problems.length ? problems : [reply.text ?? ""]),
-  ];
+  return [`${file.name} was not loaded; the run continues unchanged.`, ...(problems.length ? problems : [reply.text])];
 }

@@ -1,9 +1,9 @@
 import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
-import type { ExerciseResult, Remark } from "../../wire/files.ts";
+import type { Remark, Result } from "../../wire/messages.ts";
 
 /** What to change next time, and what went well. Empty if the coach has nothing to say. */
-export function coachPart({ coaching }: Pick<ExerciseResult, "coaching">): HTMLElement[] {
+export function coachPart({ coaching }: Pick<Result, "coaching">): HTMLElement[] {
   const part = (kind: string, title: string, remarks: readonly Remark[]): HTMLElement[] =>
     remarks.length === 0
       ? []
@@ -16,7 +16,7 @@ export function coachPart({ coaching }: Pick<ExerciseResult, "coaching">): HTMLE
           ),
         ];
   return [
-    ...part("change", "What to change next time", coaching?.change ?? []),
-    ...part("good", "What went well", coaching?.good ?? []),
+    ...part("change", "What to change next time", coaching.change),
+    ...part("good", "What went well", coaching.good),
   ];
 }

@@ -2,20 +2,15 @@ import type { Reply } from "../../engine/engine.ts";
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
-import {
-  type ExerciseOverview,
-  type ExerciseResult,
-  type RecordingEntry,
-  type RecordingTrace,
-  recordingPath,
-} from "../../wire/files.ts";
+import { recordingPath } from "../../wire/api.ts";
+import type { ExerciseOverview, RecordingEntry, RecordingTrace, Result } from "../../wire/messages.ts";
 import { fetchSource } from "../recordings/fetch_source.ts";
 import { type Trace, traceOf } from "./trace.ts";
 
 /** A button that names the result's recording as the expert's run of its exercise, or takes that back. */
 export function expertButton(
   app: App,
-  result: ExerciseResult,
+  result: Result,
   exercise: ExerciseOverview | null,
   changed: () => void,
 ): HTMLElement[] {
@@ -87,7 +82,7 @@ export function expertChoice(app: App, exercise: ExerciseOverview, changed: () =
 
 /** Says what is wrong with a recording; `ask` has said any other refusal. */
 function tellProblems(app: App, reply: Reply | null): void {
-  if (reply && !reply.ok && reply.problems?.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
+  if (reply && !reply.ok && reply.problems.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
 }
 
 /** The curves of the expert's run, in its own time; null without one, or for the expert's run itself. */

@@ -1,7 +1,6 @@
 import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
-import type { ExerciseResult, FeltLoss } from "../../wire/files.ts";
-import type { ExerciseGoal } from "../../wire/messages.ts";
+import type { GoalState, Loss, Result } from "../../wire/messages.ts";
 
 const STATES = {
   open: ["○", "open"],
@@ -11,10 +10,10 @@ const STATES = {
 } as const;
 
 /** The word for a goal's state: "not decided" for "open". */
-export const stateWord = (state: ExerciseGoal["state"]): string => (state === "open" ? "not decided" : state);
+export const stateWord = (state: GoalState["state"]): string => (state === "open" ? "not decided" : state);
 
 /** A list of goals. A sign, a colour and, for a screen reader, a word show each state. */
-export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
+export function goalList(goals: readonly GoalState[]): HTMLElement {
   return element(
     "ul",
     { class: "goals" },
@@ -41,14 +40,14 @@ export function goalList(goals: readonly ExerciseGoal[]): HTMLElement {
  * The drop of the felt force, and how much of it a hand needs to feel it, if it must: "0.04 N; 0.1 N needed". "none" if
  * the force did not fall: the next layer resists more.
  */
-export function lossText({ before, after, needed }: FeltLoss): string {
+export function lossText({ before, after, needed }: Pick<Loss, "before" | "after" | "needed">): string {
   const drop = before - after;
   const words = drop > 0 ? `${drop.toFixed(2)} N` : "none";
   return needed === null ? words : `${words}; ${Number(needed.toPrecision(2))} N needed`;
 }
 
 /** Passed, not passed, or not judged as passed. A pass of an earlier version tells if a goal was not measured. */
-export function verdict({ passed, withheld, goals }: Pick<ExerciseResult, "passed" | "withheld" | "goals">): string {
+export function verdict({ passed, withheld, goals }: Pick<Result, "passed" | "withheld" | "goals">): string {
   if (withheld) return `◐ not judged as passed: ${withheld}`;
   if (!passed) return "✕ not passed";
   const unmeasured = goals.some(({ state }) => state === "not measured");

@@ -1,5 +1,5 @@
 import { feltForce } from "../../state/scale.ts";
-import type { ExerciseMetrics } from "../../wire/files.ts";
+import type { Metrics } from "../../wire/messages.ts";
 import { lossText } from "./goals.ts";
 
 /** A row of the result's table: a label, a value and help. */
@@ -14,11 +14,11 @@ const seconds = (value: number | null): string => (value === null ? NONE : `${va
 const millimetres = (value: number | null): string => (value === null ? NONE : `${(value * 1e3).toFixed(1)} mm`);
 
 /** The peak of the model’s force, for the table and the drawing. */
-export const peakText = ({ metrics }: { readonly metrics: Pick<ExerciseMetrics, "peak_force"> }): string =>
+export const peakText = ({ metrics }: { readonly metrics: Pick<Metrics, "peak_force"> }): string =>
   `${metrics.peak_force.toFixed(2)} N`;
 
 /** The measures of an attempt, with text and units. */
-export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
+export function metricRows(metrics: Metrics): MetricRow[] {
   const { entry_angle: angle, straightness } = metrics;
   return [
     { label: "Entries", value: String(metrics.entries), help: "Number of entries into the first membrane." },
@@ -27,16 +27,16 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       value: peakText({ metrics }),
       help: "Largest total force of the model.",
     },
-    ...(metrics.peak_felt_force == null
+    ...(metrics.peak_felt_force === null
       ? []
       : [
           {
-            label: `Peak ${feltForce(metrics.force_scale ?? 1)}`,
+            label: `Peak ${feltForce(metrics.force_scale)}`,
             value: `${metrics.peak_felt_force.toFixed(2)} N`,
             help: "Largest force on the hand, after force scale and limits.",
           },
         ]),
-    ...(metrics.losses ?? []).map((loss) => ({
+    ...metrics.losses.map((loss) => ({
       label: `Loss of resistance felt, ${loss.name}`,
       value: lossText(loss),
       help: "Drop of the force on the hand at this pop.",
@@ -46,7 +46,7 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       value: millimetres(distance),
       help: `Distance that the tip moved on in the ${window} s after this pop.`,
     })),
-    ...(metrics.yields ?? []).flatMap(({ push, injected, seconds: window, loss }) => [
+    ...metrics.yields.flatMap(({ push, injected, seconds: window, loss }) => [
       {
         label: "Thumb when the plunger gave way",
         value: `${push.toFixed(2)} N`,
@@ -90,7 +90,7 @@ export function metricRows(metrics: ExerciseMetrics): MetricRow[] {
       help: "From the first contact to the first arrival.",
     },
     { label: "Total time", value: seconds(metrics.total_time), help: "From the first contact to the decision." },
-    ...Object.entries(metrics.force_cut ?? {}).map(([limit, time]) => ({
+    ...Object.entries(metrics.force_cut).map(([limit, time]) => ({
       label: `Force cut, ${limit}`,
       value: seconds(time),
       help: "Time in which this limit made the felt force smaller.",

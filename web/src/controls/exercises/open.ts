@@ -72,13 +72,13 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
     if (!reply) complain(`${file.name} was not opened: no connection.`);
     else if (reply.ok) {
       good.textContent = [`${file.name} is in the list.`, reply.text].filter(Boolean).join(" ");
-      await opened(String(reply.data?.name ?? name));
-    } else if (reply.problems?.length) complain(`${file.name} was not opened:`, reply.problems.map(sentence));
+      await opened(String(reply.data.name ?? name));
+    } else if (reply.problems.length) complain(`${file.name} was not opened:`, reply.problems.map(sentence));
     else {
       // The name is taken: whoever means the same exercise need not choose the file again.
       asked = () => void take(file, true);
       replace.textContent = `Replace ${name}`;
-      replace.hidden = over || !reply.data?.exists;
+      replace.hidden = over || !reply.data.exists;
       complain(`${file.name} was not opened: ${reply.text}.`);
     }
   };

@@ -1,6 +1,6 @@
 import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
-import type { ExerciseResult } from "../../wire/files.ts";
+import type { Result } from "../../wire/messages.ts";
 import { saveAddress } from "../download.ts";
 import { dateText } from "../recordings/words.ts";
 import { verdict } from "./goals.ts";
@@ -17,8 +17,8 @@ const FORMATS = [
 /** The results of a person or of the person's class, latest first, and the progress over the attempts. */
 export function pastResults(
   app: App,
-  open: (result: ExerciseResult) => void,
-  titleOf: (result: ExerciseResult) => string,
+  open: (result: Result) => void,
+  titleOf: (result: Result) => string,
 ): { root: HTMLElement; show(person: Person): Promise<void> } {
   const body = element("tbody", {});
   const note = element("p", { class: "quiet" });
@@ -64,10 +64,10 @@ export function pastResults(
     const all = group !== "" && whole.checked;
     const query = all ? `group=${encodeURIComponent(group)}` : `person=${encodeURIComponent(who.name.value)}`;
     const whose = all ? `the class ${group}` : who.name.value || "attempts without a name";
-    let results: ExerciseResult[] = [];
+    let results: Result[] = [];
     let words = "No results yet.";
     try {
-      results = await app.api.json<ExerciseResult[]>(`/api/results?${query}`);
+      results = await app.api.json<Result[]>(`/api/results?${query}`);
       if (results.length) words = `Results of ${whose}, kept on this computer.`;
     } catch (error) {
       words = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
@@ -96,12 +96,7 @@ export function pastResults(
   return { root, show };
 }
 
-function row(
-  result: ExerciseResult,
-  title: string,
-  withPerson: boolean,
-  open: (result: ExerciseResult) => void,
-): HTMLElement {
+function row(result: Result, title: string, withPerson: boolean, open: (result: Result) => void): HTMLElement {
   const when = element("button", { type: "button", class: "link", onclick: () => open(result) }, dateText(result.date));
   return element(
     "tr",

@@ -1,10 +1,10 @@
-import type { ExerciseResult } from "../../wire/files.ts";
+import type { Result } from "../../wire/messages.ts";
 
 /** A measure whose course over the attempts is shown. In the unit of its label; smaller is better. */
 export interface Measure {
   readonly key: string;
   readonly label: string;
-  readonly of: (result: ExerciseResult) => number | null;
+  readonly of: (result: Result) => number | null;
 }
 
 export const MEASURES: readonly Measure[] = [
@@ -25,12 +25,12 @@ export interface Point {
   /** 1 for the first attempt of the person. */
   readonly number: number;
   readonly value: number;
-  readonly result: ExerciseResult;
+  readonly result: Result;
 }
 
 /** The attempts of each person at one exercise, the oldest first. Attempts without the measure are left out. */
 export function courses(
-  results: readonly ExerciseResult[],
+  results: readonly Result[],
   exercise: string,
   { of }: Measure,
 ): { person: string; points: Point[] }[] {
@@ -56,7 +56,7 @@ export interface Summary {
 }
 
 /** What each person achieved at one exercise. */
-export function summaries(results: readonly ExerciseResult[], exercise: string, measure: Measure): Summary[] {
+export function summaries(results: readonly Result[], exercise: string, measure: Measure): Summary[] {
   return byPerson(results.filter((result) => result.exercise === exercise)).map(([person, attempts]) => {
     const values = attempts.map(measure.of).filter((value) => value !== null);
     const good = attempts.filter(({ passed }) => passed).map(measure.of);
@@ -74,8 +74,8 @@ export function summaries(results: readonly ExerciseResult[], exercise: string, 
 }
 
 /** Results by person in alphabetical order; of each person the oldest first. */
-function byPerson(results: readonly ExerciseResult[]): [string, ExerciseResult[]][] {
-  const people = new Map<string, ExerciseResult[]>();
+function byPerson(results: readonly Result[]): [string, Result[]][] {
+  const people = new Map<string, Result[]>();
   for (const result of results) people.set(result.person, [...(people.get(result.person) ?? []), result]);
   for (const attempts of people.values()) attempts.sort((a, b) => a.date.localeCompare(b.date));
   return [...people].sort(([a], [b]) => a.localeCompare(b));

@@ -5,7 +5,7 @@ import type { Pen } from "../../plots/kit/pen.ts";
 import { Polyline } from "../../plots/kit/polyline.ts";
 import { CSS_THEME, colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { App } from "../../state/app.ts";
-import type { ExerciseResult } from "../../wire/files.ts";
+import type { Result } from "../../wire/messages.ts";
 import { courses, MEASURES, type Measure, summaries } from "./progress.ts";
 
 const HEIGHT = 180; // px
@@ -14,15 +14,15 @@ const nameOf = (person: string): string => person || "no name";
 /** The course of one measure over the attempts, of one person or of a class, as a chart and a table. */
 export function progressPart(
   app: App,
-  titleOf: (result: ExerciseResult) => string,
-): { root: HTMLElement; show(results: readonly ExerciseResult[]): void } {
+  titleOf: (result: Result) => string,
+): { root: HTMLElement; show(results: readonly Result[]): void } {
   const exercise = element("select", { "aria-label": "Exercise" });
   const measure = element(
     "select",
     { "aria-label": "Measure" },
     ...MEASURES.map(({ key, label }) => element("option", { value: key }, label)),
   );
-  let known: readonly ExerciseResult[] = [];
+  let known: readonly Result[] = [];
   const chosen = (): Measure => MEASURES.find(({ key }) => key === measure.value) ?? MEASURES[0]!;
   const chart = new Figure("progress-chart", HEIGHT, (pen, width, height, theme) =>
     drawProgress(pen, width, height, theme, known, exercise.value, chosen()),
@@ -75,7 +75,7 @@ export function drawProgress(
   width: number,
   height: number,
   theme: Theme,
-  results: readonly ExerciseResult[],
+  results: readonly Result[],
   exercise: string,
   measure: Measure,
 ): string {
@@ -105,7 +105,7 @@ export function drawProgress(
   return `${measure.label} over ${points.length} attempts. Smaller is better.`;
 }
 
-function progressTable(results: readonly ExerciseResult[], exercise: string, measure: Measure): HTMLElement {
+function progressTable(results: readonly Result[], exercise: string, measure: Measure): HTMLElement {
   const number = (value: number | null): string => (value === null ? "–" : value.toFixed(2));
   const head = ["Name", "Attempts", "Passed", "First pass", "Best pass", "Last"];
   return element(

@@ -1,14 +1,8 @@
 import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
-import {
-  type ExerciseOverview,
-  type ExerciseResult,
-  type RecordingEntry,
-  type RecordingTrace,
-  recordingPath,
-  resultPath,
-} from "../../wire/files.ts";
+import { recordingPath, resultPath } from "../../wire/api.ts";
+import type { ExerciseOverview, RecordingEntry, RecordingTrace, Result } from "../../wire/messages.ts";
 import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
@@ -25,7 +19,7 @@ import { BEFORE, traceDrawing } from "./trace_drawing.ts";
  */
 export function openResult(
   app: App,
-  result: ExerciseResult,
+  result: Result,
   title: string,
   exercise: ExerciseOverview | null,
   again: (() => void) | null,
@@ -112,7 +106,7 @@ export function openResult(
   });
 }
 
-function table(result: ExerciseResult): HTMLElement {
+function table(result: Result): HTMLElement {
   const rows = metricRows(result.metrics).map(({ label, value, help }) =>
     element("tr", { title: help }, element("th", { scope: "row" }, label), element("td", {}, value)),
   );
@@ -122,7 +116,7 @@ function table(result: ExerciseResult): HTMLElement {
 /** Draws the attempt, and the expert's run, from decimated traces. Returns all recordings; none after an error. */
 async function drawTrace(
   app: App,
-  result: ExerciseResult,
+  result: Result,
   exercise: ExerciseOverview | null,
   place: HTMLElement,
   signal: AbortSignal,
@@ -174,7 +168,7 @@ async function fetchWhole(
 }
 
 /** URL of the attempt's trace, from shortly before the first contact. */
-export function tracePath({ recording, events }: Pick<ExerciseResult, "recording" | "events">): string {
+export function tracePath({ recording, events }: Pick<Result, "recording" | "events">): string {
   const touch = events.find(({ what }) => what === "touch")?.time ?? 0;
   return `${recordingPath(recording)}/trace?from=${Math.max(touch - BEFORE, 0).toFixed(3)}`;
 }

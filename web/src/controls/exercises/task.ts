@@ -1,7 +1,6 @@
 import { element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
-import type { ExerciseOverview } from "../../wire/files.ts";
-import type { ExerciseStatus } from "../../wire/messages.ts";
+import type { ExerciseOverview, ExerciseStatus } from "../../wire/messages.ts";
 import { watchBlock } from "../blocked.ts";
 import { svg } from "../svg.ts";
 import { goalList } from "./goals.ts";
@@ -87,13 +86,13 @@ export function showGoal(app: App, of: (name: string) => ExerciseOverview | null
 }
 
 /** "12 s of 60 s", or "12 s". It stands still before the first contact. */
-export function clockText({ time = 0, time_limit }: Pick<ExerciseStatus, "time" | "time_limit">): string {
+export function clockText({ time, time_limit }: Pick<ExerciseStatus, "time" | "time_limit">): string {
   const passed = `${Math.floor(time)} s`;
-  return typeof time_limit === "number" ? `${passed} of ${time_limit} s` : passed;
+  return time_limit === null ? passed : `${passed} of ${time_limit} s`;
 }
 
 /** How much of the stay is done, from 0 to 1. */
-export function heldShare({ held = 0, hold = 0 }: Pick<ExerciseStatus, "held" | "hold">): number {
+export function heldShare({ held, hold }: Pick<ExerciseStatus, "held" | "hold">): number {
   return hold > 0 ? Math.min(1, held / hold) : 0;
 }
 
@@ -118,7 +117,7 @@ function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
   return {
     root,
     show: (status) => {
-      const { held = 0, hold = 0 } = status;
+      const { held, hold } = status;
       root.hidden = hold === 0;
       root.classList.toggle("holding", held > 0);
       root.setAttribute("aria-valuemax", String(hold));

@@ -1,5 +1,4 @@
-import type { ExerciseOverview, RecordingTrace } from "../../wire/files.ts";
-import type { MembraneView } from "../../wire/messages.ts";
+import type { ExerciseOverview, MembraneView, RecordingTrace } from "../../wire/messages.ts";
 
 /** The curves of an attempt: time (s), depth below the first surface (m) and force (N); NaN is a gap. */
 export interface Trace {

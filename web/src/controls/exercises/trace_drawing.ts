@@ -6,7 +6,7 @@ import { apart, labelsThatFit, textWidth } from "../../plots/kit/labels.ts";
 import type { Pen, Stroke } from "../../plots/kit/pen.ts";
 import { Polyline } from "../../plots/kit/polyline.ts";
 import { colourOf, type Theme } from "../../plots/kit/theme.ts";
-import type { ExerciseResult } from "../../wire/files.ts";
+import type { Result } from "../../wire/messages.ts";
 import { contactOf } from "./expert.ts";
 import { peakText } from "./metrics.ts";
 import { indexAt, type Layer, type Trace } from "./trace.ts";
@@ -24,7 +24,7 @@ export function traceDrawing(
   trace: Trace,
   layers: readonly Layer[],
   space: Layer | null,
-  result: ExerciseResult,
+  result: Result,
   expert: Trace | null = null,
 ): HTMLElement {
   const figure = new Figure("trace", HEIGHT, (pen, width, height, theme) => {
@@ -52,7 +52,7 @@ export function drawTrace(
   trace: Trace,
   layers: readonly Layer[],
   space: Layer | null,
-  result: ExerciseResult,
+  result: Result,
   expert: Trace | null = null,
 ): void {
   const touch = result.events.find(({ what }) => what === "touch")?.time ?? trace.time[0] ?? 0;
@@ -135,15 +135,7 @@ function drawLayers(pen: Pen, pane: Pane, layers: readonly Layer[], space: Layer
 }
 
 /** Lines for the pops, the first arrival in the space and the decision. */
-function drawMarks(
-  pen: Pen,
-  depth: Pane,
-  force: Pane,
-  result: ExerciseResult,
-  touch: number,
-  end: number,
-  theme: Theme,
-): void {
+function drawMarks(pen: Pen, depth: Pane, force: Pane, result: Result, touch: number, end: number, theme: Theme): void {
   const { time_to_target: arrival, total_time: total } = result.metrics;
   const [orange, green] = [colourOf(theme, 1), colourOf(theme, 2)];
   const pops = result.events.filter(({ what, time }) => what === "pop" && time <= end);
@@ -186,7 +178,7 @@ function indexOfMost(values: Float64Array, from: number, to: number): number | n
   return best;
 }
 
-function wordsOf({ events }: ExerciseResult): string {
+function wordsOf({ events }: Result): string {
   const pops = events
     .filter(({ what }) => what === "pop")
     .map(({ name, time }) => `through ${name} at ${time.toFixed(1)} s`);

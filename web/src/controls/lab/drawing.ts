@@ -4,7 +4,7 @@ import type { Curve, Hidden } from "../../plots/kit/legend.ts";
 import type { Pen } from "../../plots/kit/pen.ts";
 import { niceStep } from "../../plots/kit/scale.ts";
 import { colourOf, type Theme } from "../../plots/kit/theme.ts";
-import type { LabBand, LabComparison } from "../../wire/files.ts";
+import type { LabBand, LabComparison } from "../../wire/messages.ts";
 import { shortNames } from "./fields.ts";
 
 export type On = "depth" | "time";

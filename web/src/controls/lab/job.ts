@@ -1,6 +1,6 @@
 import type { Api } from "../../wire/api.ts";
-import type { LabComparison, LabLine } from "../../wire/files.ts";
 import { jsonLines } from "../../wire/lines.ts";
+import type { LabComparison, LabLine } from "../../wire/messages.ts";
 
 /** What to compare: recordings by name, or a parameter of the present scene through a list of values. SI. */
 export type Job =

@@ -1,5 +1,5 @@
 import { element, named } from "../../panel.ts";
-import type { ExerciseResult, RecordingEntry } from "../../wire/files.ts";
+import type { RecordingEntry, Result } from "../../wire/messages.ts";
 import { dateText, lengthText } from "../recordings/words.ts";
 
 const MOST = 25; // runs, as in the studio
@@ -13,7 +13,7 @@ export const choose = (chosen: readonly string[], name: string, on: boolean): re
 /** A list of recordings and results with check boxes, and a button that compares the chosen ones. */
 export function pickRuns(act: (names: readonly string[]) => void): {
   readonly root: HTMLElement;
-  offer(entries: readonly RecordingEntry[], results: readonly ExerciseResult[]): void;
+  offer(entries: readonly RecordingEntry[], results: readonly Result[]): void;
 } {
   const list = element("ul", { class: "lab-list" });
   const none = element("p", { class: "quiet" }, "No recordings yet. Record a run, or try an exercise.");

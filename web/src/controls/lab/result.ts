@@ -4,7 +4,7 @@ import { Hidden, legend } from "../../plots/kit/legend.ts";
 import { CSS_THEME } from "../../plots/kit/theme.ts";
 import { choice } from "../../plots/toolbar.ts";
 import type { App } from "../../state/app.ts";
-import type { LabComparison } from "../../wire/files.ts";
+import type { LabComparison } from "../../wire/messages.ts";
 import { saveAddress } from "../download.ts";
 import { drawLab, labCurves, type On, QUANTITIES, type Quantity, quantitiesOf } from "./drawing.ts";
 import { bundlePath, type Job } from "./job.ts";

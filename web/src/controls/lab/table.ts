@@ -1,7 +1,8 @@
 import { element } from "../../panel.ts";
-import type { LabComparison, LabNumber } from "../../wire/files.ts";
+import type { LabComparison, Statistics } from "../../wire/messages.ts";
 import { shortNames } from "./fields.ts";
 
+type LabNumber = Exclude<keyof Statistics, "name" | "pops">;
 /** The columns: the number, its heading, and the factor from SI to the heading's unit. */
 type Column = readonly [name: LabNumber, head: string, gain: number, places: number];
 const COLUMNS: readonly Column[] = [
@@ -28,7 +29,7 @@ const signed = (value: number, gain: number, places: number): string =>
 /** The numbers of each run with their difference to the first, and their mean and standard deviation. */
 export function labTable({ statistics, differences, summary }: LabComparison): HTMLElement {
   const names = shortNames(statistics.map(({ name }) => name));
-  const columns = COLUMNS.filter(([name]) => !OF_PLUNGER.includes(name) || summary[name].n > 0);
+  const columns = COLUMNS.filter(([name]) => !OF_PLUNGER.includes(name) || summary[name]!.n > 0);
   const rows = statistics.map((run, row) =>
     element(
       "tr",
@@ -43,7 +44,7 @@ export function labTable({ statistics, differences, summary }: LabComparison): H
     ),
   );
   const whole = columns.map(([name, , gain, places]) => {
-    const { n, mean, deviation } = summary[name];
+    const { n, mean, deviation } = summary[name]!;
     const count = n === statistics.length ? "" : ` (n = ${n})`;
     const text = `${numberText(mean, gain, places)} ± ${numberText(deviation, gain, places)}${count}`;
     return element("td", {}, n > 1 ? text : "–");

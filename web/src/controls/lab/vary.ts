@@ -1,5 +1,5 @@
 import { element } from "../../panel.ts";
-import type { RecordingEntry, SceneField } from "../../wire/files.ts";
+import type { RecordingEntry, SceneField } from "../../wire/messages.ts";
 import { fieldWords } from "./fields.ts";
 import type { Job } from "./job.ts";
 

@@ -1,7 +1,7 @@
 import { Source } from "../../state/source.ts";
-import type { Api } from "../../wire/api.ts";
-import { type RecordingEntry, type RecordingOverview, recordingPath } from "../../wire/files.ts";
+import { type Api, recordingPath } from "../../wire/api.ts";
 import { FrameSplitter } from "../../wire/length_prefixed.ts";
+import type { RecordingEntry, RecordingOverview } from "../../wire/messages.ts";
 import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 import { gapBefore } from "./gap.ts";
 

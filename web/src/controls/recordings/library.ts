@@ -1,7 +1,8 @@
 import type { App } from "../../state/app.ts";
 import { Signal } from "../../state/signal.ts";
 import type { Source } from "../../state/source.ts";
-import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
+import { recordingPath } from "../../wire/api.ts";
+import type { RecordingEntry } from "../../wire/messages.ts";
 import { type Fetched, fetchSource, type Progress } from "./fetch_source.ts";
 
 const FINISHING = 10; // s that the server gets to finalize a file

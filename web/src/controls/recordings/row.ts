@@ -1,5 +1,6 @@
 import { element } from "../../panel.ts";
-import { type RecordingEntry, recordingPath } from "../../wire/files.ts";
+import { recordingPath } from "../../wire/api.ts";
+import type { RecordingEntry } from "../../wire/messages.ts";
 import { blockOf } from "../blocked.ts";
 import { fileName, saveAddress } from "../download.ts";
 import { type Library, wordsOf } from "./library.ts";

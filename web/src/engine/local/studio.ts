@@ -1,6 +1,6 @@
 import type { EstimateMessage, Message, SceneView } from "../../wire/messages.ts";
 import { codeOf, decodeTicks, wordsOf } from "../../wire/ticks.ts";
-import type { Ask, Reply, Triple } from "../engine.ts";
+import { type Answer, type Ask, DONE, type Reply, type Triple } from "../engine.ts";
 import { BlockClock } from "./clock.ts";
 import { IN_CONTROL, type LiveRun, type Punctura, type StudioData, type Tables } from "./core.ts";
 import { withDefaults } from "./defaults.ts";
@@ -17,8 +17,6 @@ export interface Out {
   message(message: Exclude<Message, Reply>): void;
   frame(frame: ArrayBuffer): void;
 }
-type Answer = Omit<Reply, "kind" | "id">;
-const DONE: Answer = { ok: true };
 
 /** Refused, with a sentence. */
 class NotNow extends Error {}
@@ -71,7 +69,7 @@ export class LocalStudio {
     try {
       return { ...DONE, ...this.obey(request) };
     } catch (error) {
-      if (error instanceof NotNow) return { ok: false, text: error.message, problems: [] };
+      if (error instanceof NotNow) return { ...DONE, ok: false, text: error.message };
       return refusal(error);
     }
   }
@@ -247,11 +245,12 @@ const noEstimate = (): EstimateMessage => ({
 /** The problems of a scene, as the server would send them. */
 function refusal(error: unknown): Answer {
   const found = (error as { problems?: { path: string; value: number; reason: string }[] }).problems;
-  if (!found?.length) return { ok: false, text: error instanceof Error ? error.message : String(error), problems: [] };
+  const text = error instanceof Error ? error.message : String(error);
+  if (!found?.length) return { ...DONE, ok: false, text };
   const problems = found.map(({ path, value, reason }) => ({
     path,
     value: Number.isNaN(value) ? "" : String(value),
     reason,
   }));
-  return { ok: false, text: `${problems.length} problem${problems.length === 1 ? "" : "s"}`, problems };
+  return { ...DONE, ok: false, text: `${problems.length} problem${problems.length === 1 ? "" : "s"}`, problems };
 }

@@ -1,3 +1,4 @@
+import { DONE } from "../engine.ts";
 import type { Punctura, StudioData, Tables } from "./core.ts";
 import type { FromWorker, ToWorker } from "./mail.ts";
 import { LocalStudio } from "./studio.ts";
@@ -55,7 +56,7 @@ scope.onmessage = ({ data }) => {
     visible = data.visible;
     studio?.sleep();
   } else if ("ask" in data) {
-    const answer = studio?.ask(data.ask) ?? { ok: false, text: "The core is not loaded yet.", problems: [] };
+    const answer = studio?.ask(data.ask) ?? { ...DONE, ok: false, text: "The core is not loaded yet." };
     send({ reply: { kind: "reply", id: data.id, ...answer } });
   } else {
     studio?.target(data.run, data.position, data.axis, data.buttons);

@@ -1,10 +1,14 @@
 import { expect, test } from "vitest";
 import { metricRows } from "../../../src/controls/exercises/metrics.ts";
-import type { ExerciseMetrics } from "../../../src/wire/files.ts";
+import type { Loss, Metrics, PlungerLoss, Yield } from "../../../src/wire/messages.ts";
 
-const metrics: ExerciseMetrics = {
+const metrics: Metrics = {
   entries: 2,
   peak_force: 0.9041,
+  peak_felt_force: null,
+  force_scale: 1,
+  losses: [],
+  yields: [],
   overshoot: [{ membrane: 0, name: "skin", time: 1, distance: 0.00213, seconds: 0.5 }],
   dwell: 5.26,
   longest_stay: 3.1,
@@ -16,6 +20,9 @@ const metrics: ExerciseMetrics = {
   time_to_target: null,
   total_time: 21.1,
   lost_ticks: 0,
+  force_cut: {},
+  page_late: 0,
+  force_off: 0,
 };
 
 test("the help of an overshoot names the time in which it was measured", () => {
@@ -26,7 +33,7 @@ test("the felt force stands beside the model force, with the scale, and each los
   const losses = [
     { membrane: 0, name: "skin", before: 0.4, after: 0.15, needed: null },
     { membrane: 1, name: "wall", before: 0.4, after: 0.36, needed: 0.1 },
-  ];
+  ] as Loss[];
   const told = metricRows({ ...metrics, peak_felt_force: 0.2712, force_scale: 0.3, losses });
   expect(Object.fromEntries(told.map(({ label, value }) => [label, value]))).toMatchObject({
     "Peak model force": "0.90 N",
@@ -38,7 +45,7 @@ test("the felt force stands beside the model force, with the scale, and each los
 });
 
 test("the thumb is told each time that the plunger gave way", () => {
-  const yields = [{ push: 3.996, injected: 0.94e-6, seconds: 1, loss: null }];
+  const yields = [{ push: 3.996, injected: 0.94e-6, seconds: 1, loss: null }] as Yield[];
   const rows = new Map(metricRows({ ...metrics, yields }).map(({ label, value }) => [label, value]));
   expect(rows.get("Thumb when the plunger gave way")).toBe("4.00 N");
   expect(rows.get("Injected after it")).toBe("0.9 mL");
@@ -46,8 +53,8 @@ test("the thumb is told each time that the plunger gave way", () => {
 });
 
 test("what the thumb felt is told, or that it was a key", () => {
-  const gave = { push: 4, injected: 0, seconds: 1 };
-  const loss = { before: 0.22, after: 0.1, needed: 0.1 };
+  const gave = { push: 4, push_after: null, injected: 0, seconds: 1, time: 0 };
+  const loss = { before: 0.22, after: 0.1, needed: 0.1 } as PlungerLoss;
   const felt = (one: typeof loss | null) =>
     metricRows({ ...metrics, yields: [{ ...gave, loss: one }] }).find(({ label }) => label.endsWith("felt, plunger"));
   expect(felt(loss)?.value).toBe("0.12 N; 0.1 N needed");

@@ -3,22 +3,16 @@ import { courses, MEASURES, summaries } from "../../../src/controls/exercises/pr
 import { drawProgress } from "../../../src/controls/exercises/progress_part.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
-import type { ExerciseResult } from "../../../src/wire/files.ts";
+import type { Result } from "../../../src/wire/messages.ts";
 
-const attempt = (
-  person: string,
-  day: number,
-  passed: boolean,
-  overshoot: number | null,
-  exercise = "vein",
-): ExerciseResult =>
+const attempt = (person: string, day: number, passed: boolean, overshoot: number | null, exercise = "vein"): Result =>
   ({
     person,
     exercise,
     passed,
     date: `2026-01-${String(day).padStart(2, "0")}T10:00:00Z`,
     metrics: { overshoot: overshoot === null ? [] : [{ distance: 0.5e-3 }, { distance: overshoot }] },
-  }) as unknown as ExerciseResult;
+  }) as unknown as Result;
 
 const RESULTS = [
   attempt("Bob", 4, true, 1e-3),

@@ -1,8 +1,7 @@
 import { expect, test } from "vitest";
 import { clockText, heldShare, showGoal } from "../../../src/controls/exercises/task.ts";
 import { App } from "../../../src/state/app.ts";
-import type { ExerciseOverview } from "../../../src/wire/files.ts";
-import type { ExerciseStatus, SceneView } from "../../../src/wire/messages.ts";
+import type { ExerciseOverview, ExerciseStatus, SceneView } from "../../../src/wire/messages.ts";
 import { FakeEngine } from "../../support/fake_engine.ts";
 
 const membrane = (name: string, depth: number, thickness: number) => ({
@@ -20,6 +19,11 @@ const running = (more: Partial<ExerciseStatus> = {}): ExerciseStatus => ({
   instruction: "",
   goals: [],
   result: "",
+  blind: false,
+  held: 0,
+  hold: 0,
+  time: 0,
+  time_limit: null,
   ...more,
 });
 

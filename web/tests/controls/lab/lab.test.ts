@@ -8,7 +8,7 @@ import { Hidden } from "../../../src/plots/kit/legend.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 import { Api } from "../../../src/wire/api.ts";
-import type { LabBand, LabComparison } from "../../../src/wire/files.ts";
+import type { LabBand, LabComparison } from "../../../src/wire/messages.ts";
 
 const band = (...runs: number[][]): LabBand => ({
   x: [0, 1e-3, 2e-3],

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { fetchSource } from "../../../src/controls/recordings/fetch_source.ts";
-import type { RecordingEntry } from "../../../src/wire/files.ts";
+import type { RecordingEntry } from "../../../src/wire/messages.ts";
 import { expected, makeFrame } from "../../wire/frame.ts";
 import { fakeFiles } from "../support/fake_files.ts";
 import { prefixed } from "../support/prefixed.ts";

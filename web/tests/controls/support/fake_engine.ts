@@ -1,4 +1,11 @@
-import type { Ask, Engine, EngineListener, Reply, Triple } from "../../../src/engine/engine.ts";
+import {
+  type Ask,
+  DONE,
+  type Engine,
+  type EngineListener,
+  type Reply,
+  type Triple,
+} from "../../../src/engine/engine.ts";
 import type { LawCurve, Message, ProblemPart, SceneView } from "../../../src/wire/messages.ts";
 
 type Table = Record<string, number>;
@@ -35,14 +42,14 @@ export class FakeEngine implements Engine {
   async ask(request: Ask): Promise<Reply> {
     this.asked.push(request);
     await new Promise((done) => setTimeout(done, this.delay));
-    const reply = { kind: "reply", id: this.asked.length } as const;
-    if (request.do !== "edit") return { ...reply, ok: true };
+    const reply = { kind: "reply", id: this.asked.length, ...DONE } as const;
+    if (request.do !== "edit") return reply;
     const problems = problemsOf(request.tables);
     if (problems.length) return { ...reply, ok: false, text: "bad scene", problems };
     this.number += 1;
     this.scene = { ...this.scene, number: this.number, tables: request.tables, laws: this.laws(request.tables) };
     this.say({ kind: "scene", scene: this.scene, new_run: false, run: 0 });
-    return { ...reply, ok: true };
+    return reply;
   }
 
   private laws(tables: Record<string, unknown>): LawCurve[] {

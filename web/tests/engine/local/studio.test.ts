@@ -68,12 +68,12 @@ describe("the studio in a page", () => {
   });
 
   it("starts a run with a ready scene or a file, and none with problems", () => {
-    expect(studio.ask({ do: "load", scene: "skin" })).toEqual({ ok: true });
+    expect(studio.ask({ do: "load", scene: "skin" })).toMatchObject({ ok: true });
     expect(last("scene")).toMatchObject({ run: 1, new_run: true, scene: { tables: { name: "Skin" } } });
-    expect(studio.ask({ do: "load_text", toml: 'name = "Own"' })).toEqual({ ok: true });
+    expect(studio.ask({ do: "load_text", toml: 'name = "Own"' })).toMatchObject({ ok: true });
     expect(last("scene")).toMatchObject({ run: 2, scene: { tables: { name: "Own" } } });
     const before = core.told.length;
-    expect(studio.ask({ do: "load_text", toml: 'name = "BAD"' })).toEqual({
+    expect(studio.ask({ do: "load_text", toml: 'name = "BAD"' })).toMatchObject({
       ok: false,
       text: "1 problem",
       problems: [{ path: "membrane[0].friction", value: "-1", reason: "must be greater than 0" }],
@@ -91,11 +91,11 @@ describe("the studio in a page", () => {
 
   it("exchanges the scene within the run, after the ticks of the old one", () => {
     now += 10;
-    expect(studio.ask({ do: "edit", tables: { name: "Mine" } })).toEqual({ ok: true });
+    expect(studio.ask({ do: "edit", tables: { name: "Mine" } })).toMatchObject({ ok: true });
     expect(frames).toHaveLength(1);
     expect(last("scene")).toMatchObject({ run: 0, new_run: false, scene: { tables: { name: "Mine" } } });
     const later = studio.ask({ do: "edit", tables: { name: "Mine", servo: { rate_hz: 2000 } } });
-    expect(later).toEqual({ ok: true, text: "the new rate takes effect in the next run" });
+    expect(later).toMatchObject({ ok: true, text: "the new rate takes effect in the next run" });
     expect(studio.ask({ do: "edit", tables: { name: "BAD" } }).ok).toBe(false);
     expect(last("scene").scene.tables.name).toBe("Mine");
   });
@@ -129,7 +129,7 @@ describe("the studio in a page", () => {
     expect(studio.ask({ do: "push_plunger", force: 3 })).toMatchObject({ ok: false, text: "the scene has no syringe" });
     core.syringe = { bore: 9e-3, volume: 1e-5 };
     studio.ask({ do: "load", scene: "skin" });
-    expect(studio.ask({ do: "push_plunger", force: 3 })).toEqual({ ok: true });
+    expect(studio.ask({ do: "push_plunger", force: 3 })).toMatchObject({ ok: true });
     advance(900);
     expect(core.told.at(-1)).toBe("push 3");
     advance(200);

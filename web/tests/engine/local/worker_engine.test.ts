@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
-import type { Connection } from "../../../src/engine/engine.ts";
+import { type Connection, DONE } from "../../../src/engine/engine.ts";
 import type { FromWorker, ToWorker } from "../../../src/engine/local/mail.ts";
 import { WorkerEngine, type WorkerPort } from "../../../src/engine/local/worker_engine.ts";
 import type { Message } from "../../../src/wire/messages.ts";
@@ -61,8 +61,8 @@ it("gives each request its reply", async () => {
     { id: 1, ask: { do: "arm" } },
     { id: 2, ask: { do: "load", scene: "none" } },
   ]);
-  say({ reply: { kind: "reply", id: 2, ok: false, text: "no" } });
-  say({ reply: { kind: "reply", id: 1, ok: true } });
+  say({ reply: { kind: "reply", id: 2, ...DONE, ok: false, text: "no" } });
+  say({ reply: { kind: "reply", id: 1, ...DONE } });
   expect(await first).toMatchObject({ ok: true });
   expect(await second).toMatchObject({ ok: false, text: "no" });
 });

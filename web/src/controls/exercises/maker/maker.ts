@@ -45,14 +45,14 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   };
   const tell = (reply: Awaited<ReturnType<App["ask"]>>, good: string): boolean => {
     if (!reply) return false;
-    complain(reply.problems ?? []);
+    complain(reply.problems);
     if (reply.ok) note.textContent = [good, reply.text].filter(Boolean).join(" ");
-    else if (!reply.problems?.length) note.textContent = reply.text ?? "";
+    else if (!reply.problems.length) note.textContent = reply.text;
     return reply.ok;
   };
   const check = async (): Promise<boolean> => {
     const reply = await app.ask({ do: "check_exercise", tables: tablesOf(draft!, scene()) });
-    toml = String(reply?.data?.toml ?? "");
+    toml = String(reply?.data.toml ?? "");
     return tell(reply, "");
   };
   const attempt = async (): Promise<void> => {
