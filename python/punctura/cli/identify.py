@@ -66,6 +66,14 @@ def command(
         int | None,
         typer.Option("--workers", min=1, help="For a folder: number of processes. Default: one for each processor."),
     ] = None,
+    hold_out: Annotated[
+        bool,
+        typer.Option(
+            "--hold-out",
+            help="Predict instead, beside the rivals: the second insertion from the first, or each trace of a folder "
+            "from the others.",
+        ),
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Identifies membranes from a measured trace. Gives values, 95 % intervals, and what the trace cannot tell."""
@@ -81,6 +89,18 @@ def command(
         number_of(membranes),
     )
     folder = trace.is_dir() and not is_bag(trace)
+    if hold_out:
+        from punctura.cli._hold_out import tell_folder, tell_insertion
+
+        if scene or report or plan or out:
+            raise typer.BadParameter(
+                "predicts only: leave out --scene, --report, --plan and --out", param_hint="--hold-out"
+            )
+        if folder:
+            tell_folder(trace, _trace.needle_of(needle), count, stated, as_json)
+        else:
+            tell_insertion(*_trace.read_with_needle(trace, stated, needle, context), count, as_json)
+        return
     if folder or out is not None:
         if scene or report or plan:
             raise typer.BadParameter("--scene, --report and --plan need a single trace, without --out")

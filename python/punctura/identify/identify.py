@@ -14,6 +14,7 @@ from punctura.files.names import as_text
 from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
+from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.fit import Fit, Misfit, Start, best_fit
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
@@ -48,6 +49,7 @@ class Identification:
     verdicts: tuple[str, ...]
     candidates: tuple[Candidate, ...]  # the chosen model first
     effective_samples: float
+    doubts: Doubts
 
     @property
     def parameters(self) -> Parameters:
@@ -89,6 +91,7 @@ class Identification:
             ],
             "correlations": Uncertainty(self.fit).correlations.round(4).tolist(),
             "findings": [{"kind": f.kind, "text": f.text, "repaired": f.repaired} for f in self.trace.findings],
+            "explained": self.doubts.as_dict(),
             "not_told": list(self.verdicts),
             "models": [
                 {"name": c.name, "extensions": list(c.extensions), "rmse_N": c.fit.rmse, "parameters": len(c.fit.u),
@@ -149,9 +152,9 @@ def _identified(
             choice.again(point.parameters)
     effective = effective_samples(final.residuals, len(final.u))
     said = verdicts(found, trace, segments, few_fit)
-    return Identification(
-        trace, segments, final, found, (*said, MORE_OPTIMA) if more else said, choice.candidates, effective
-    )
+    doubt = doubts(trace, segments, final, choice.current.extensions)
+    said = (*doubt.sentences, *said, *([MORE_OPTIMA] if more else []))
+    return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt)
 
 
 def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:

@@ -44,6 +44,38 @@ class ModelRecord(TypedDict):
     held_out_rmse_N: float | None
 
 
+class PlaceRecord(TypedDict):
+    """A stretch that the model does not explain. force_N: measured less computed."""
+
+    way: str  # in, out, hold
+    insertion: int
+    shallow_m: float
+    deep_m: float
+    force_N: float
+    share: float  # of all that is left
+
+
+class CauseRecord(TypedDict):
+    """What could explain what is left: barbs, asymmetric_way_out, rate, insertion, ripple, depth, depth_noise."""
+
+    kind: str
+    share: float
+    text: str
+
+
+class ExplainedRecord(TypedDict):
+    """Whether the model explains the trace."""
+
+    explained: bool
+    left_N: float
+    noise_N: float
+    noise_is_of_air: bool
+    runs: int
+    runs_of_noise: float
+    not_explained: list[PlaceRecord]
+    causes: list[CauseRecord]
+
+
 class IdentificationRecord(TypedDict):
     """A whole identification."""
 
@@ -59,6 +91,7 @@ class IdentificationRecord(TypedDict):
     parameters: list[ParameterRecord]
     correlations: list[list[float]]
     findings: list[FindingRecord]
+    explained: ExplainedRecord
     not_told: list[str]
     models: list[ModelRecord]
 

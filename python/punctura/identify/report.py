@@ -83,8 +83,11 @@ def picture_png(found: Identification) -> bytes:
     over.plot(depth, model, color="C3", lw=1.2, label="model")
     for pop in found.segments.pops:
         over.axvline(pop.depth * 1e3, color="0.8", lw=0.8, zorder=0)
-    over.set(ylabel="force, N")
+    over.set(ylabel="force, N", title="shaded: not explained" if found.doubts.explained.places else "")
     over.legend()
+    for place in found.doubts.explained.places:
+        for axes in (over, below):
+            axes.axvspan(place.shallow * 1e3, place.deep * 1e3, color="C1", alpha=0.25, lw=0, zorder=0)
     below.plot(depth, model - found.trace.force, color="C0", lw=0.8)
     below.set(xlabel="depth, mm", ylabel="model - measured, N")
     _draw_laws(law, found)

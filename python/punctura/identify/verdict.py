@@ -11,26 +11,39 @@ from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
 from punctura.trace import Segments, Trace
 
-_EXPERIMENTS = {
-    "surface": "begin well before contact and go on until the pop is over",
-    "stiffness": "insert until the tip is through, and withdraw",
-    "precompression": "insert slowly through the first millimetre, with more samples there",
-    "friction": "record the withdrawal too: it shows the friction without the tip",
-    "thickness": "insert more slowly, or sample faster: the pop is sharper than the samples",
-    "tip_length": "begin well before contact and go on until the pop is over",
-    "growth": "go on until the pop: only the last part of the rise shows how the grip grows",
-    "tail_length": "go on by two tip lengths behind the pop",
-    "tail_floor": "go on by two tip lengths behind the pop",
-    "cutting": "insert a second time at the same place",
-    "set": "record the withdrawal, and a second insertion at the same place",
-    "coupling_stiffness": "reverse inside the tissue: the unloading shows the spring",
-    "relaxation_1_stiffness": "rest for 10 s inside the tissue",
-    "relaxation_1_time": "rest for 10 s inside the tissue",
-    "relaxation_2_stiffness": "rest for a minute inside the tissue",
-    "relaxation_2_time": "rest for a minute inside the tissue",
-    "offset": "begin before contact",
-    "drift": "begin before contact and end outside the tissue",
-}  # fmt: skip
+# What shows a parameter: (what the trace must lack for this advice, advice). The first one that fits is given.
+THROUGH = ("pop", "insert until the tip is through")
+WITHDRAWAL = ("withdrawal", "record the withdrawal too: it shows the friction without the tip")
+BEFORE = ("air", "begin well before contact")
+AGAIN = ("second", "insert a second time at the same place")
+REST = ("hold", "rest for 10 s inside the tissue")
+DEEPER = ("", "go on by two tip lengths behind the pop")
+SLOWER = ("", "insert more slowly, or sample faster: the pop is sharper than the samples")
+MORE = ("", "repeat the insertion with less noise or more samples: this trace has each part that shows it")
+_EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
+    "surface": (BEFORE, THROUGH),
+    "stiffness": (THROUGH, WITHDRAWAL),
+    "precompression": (BEFORE, ("", "insert slowly through the first millimetre, with more samples there")),
+    "friction": (THROUGH, WITHDRAWAL, DEEPER),
+    "thickness": (THROUGH, SLOWER),
+    "tip_length": (BEFORE, THROUGH, SLOWER),
+    "growth": (("pop", "go on until the pop: only the last part of the rise shows how the grip grows"),),
+    "tail_length": (DEEPER,),
+    "tail_floor": (DEEPER,),
+    "cutting": (AGAIN,),
+    "set": (WITHDRAWAL, AGAIN),
+    "coupling_stiffness": (
+        ("withdrawal", "withdraw, or reverse inside the tissue: the unloading shows the spring"),
+        ("", "reverse inside the tissue, half way: the unloading shows the spring"),
+    ),
+    "relaxation_1_stiffness": (REST,),
+    "relaxation_1_time": (REST,),
+    "relaxation_2_stiffness": (("long hold", "rest for a minute inside the tissue"),),
+    "relaxation_2_time": (("long hold", "rest for a minute inside the tissue"),),
+    "offset": (BEFORE,),
+    "drift": (BEFORE, ("air behind", "end outside the tissue")),
+}
+LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
 
 SEEN = 0.002  # of the greatest force: a smaller drift does not matter
@@ -42,7 +55,7 @@ def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fi
 
     fit: of all samples, or of the thinned ones, for the noise.
     """
-    return (*_not_identifiable(estimates), *_not_seen(trace, segments), *_drifting(fit))
+    return (*_not_identifiable(estimates, trace, segments), *_not_seen(trace, segments), *_drifting(fit))
 
 
 def _drifting(fit: Fit) -> Iterator[str]:
@@ -55,11 +68,31 @@ def _drifting(fit: Fit) -> Iterator[str]:
         )
 
 
-def _not_identifiable(estimates: Sequence[Estimate]) -> Iterator[str]:
+def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments) -> Iterator[str]:
+    has = _parts(trace, segments, sum(kind_of(estimate.name) == "surface" for estimate in estimates))
     for estimate in estimates:
         if not estimate.identifiable:
-            advice = _EXPERIMENTS.get(kind_of(estimate.name), "repeat the insertion")
+            known = _EXPERIMENTS.get(kind_of(estimate.name), ())
+            advice = next(text for lacking, text in (*known, MORE) if lacking not in has)
             yield f"{estimate.name} is not identifiable from this trace: {advice}."
+
+
+def _parts(trace: Trace, segments: Segments, walls: int) -> frozenset[str]:
+    """What a trace of this number of walls has already: no experiment for it is advised."""
+    time = trace.time
+    rests = [] if time is None else [float(time[one.end - 1] - time[one.start]) for one in segments.holds]
+    out = [stroke for stroke in segments.strokes if stroke.kind == "out"]
+    contact = None if segments.contact is None else trace.depth[segments.contact]
+    has = {
+        "pop": len(segments.pops) >= max(walls, 1),
+        "withdrawal": bool(out),
+        "air": contact is not None,
+        "air behind": bool(out) and contact is not None and bool(trace.depth[-1] < contact),
+        "second": segments.insertions > 1,
+        "hold": max(rests, default=0.0) >= LONG,
+        "long hold": max(rests, default=0.0) >= VERY_LONG,
+    }
+    return frozenset(name for name, there in has.items() if there)
 
 
 def _not_seen(trace: Trace, segments: Segments) -> Iterator[str]:

@@ -1,0 +1,56 @@
+"""`punctura identify --hold-out`: how well K06 and its rivals predict what they did not see."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Literal
+
+import typer
+
+from punctura import Needle
+from punctura.cli._status import FAILED
+from punctura.defects import PATIENCE_S, explain
+from punctura.files.names import as_text, traces_in
+from punctura.rivals.hold_out import another_trace, fitted, in_words, means, records, second_insertion
+from punctura.trace import Trace
+from punctura.trace.read import read_as
+from punctura.trace.reading import Reading
+
+
+def tell_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], as_json: bool) -> None:
+    """Predicts the second insertion from the first one."""
+    found = records(second_insertion(trace, needle, membranes, _say))
+    what = f"{trace.source}: fitted to the first insertion; error of the second one"
+    typer.echo(json.dumps({"hold_out": found}, indent=2) if as_json else in_words(what, found))
+
+
+def tell_folder(
+    folder: Path, needle: Needle, membranes: int | Literal["auto"], reading: Reading, as_json: bool
+) -> None:
+    """Predicts each trace of a folder from all others."""
+    all_of_them, failed = {}, {}
+    for path in traces_in(folder):
+        name = as_text(path.name)
+        _say(name)
+        try:
+            one = fitted(read_as(path, reading), needle, membranes, lambda _: None)
+            _ = one.contact
+            all_of_them[name] = one
+        except Exception as error:
+            failed[name] = explain(error, PATIENCE_S)
+    found = another_trace(all_of_them)
+    if as_json:
+        typer.echo(json.dumps({"hold_out": records(found), "mean": means(found), "failed": failed}, indent=2))
+    else:
+        for name in all_of_them:
+            typer.echo(in_words(f"{name}, predicted from the others:", records([p for p in found if p.trace == name])))
+        typer.echo(in_words(f"Mean over {len(all_of_them)} traces:", means(found)))
+        for name, reason in failed.items():
+            typer.echo(f"{name}: {reason}")
+    if failed:
+        raise typer.Exit(FAILED)
+
+
+def _say(word: str) -> None:
+    typer.echo(f"punctura: {word}", err=True)

@@ -1,0 +1,75 @@
+"""What is said when a model does not explain its trace, or explains it by the wrong means."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from punctura.identify.causes import Cause, causes
+from punctura.identify.explained import SURE, Explained, explained
+from punctura.identify.fit import Fit
+from punctura.identify.records import ExplainedRecord
+from punctura.identify.ways import UNEVEN, both_ways, way_out
+from punctura.trace import Segments, Trace
+from punctura.trace.turns import noise_of
+
+WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
+UNEQUAL = ("barbs", "asymmetric_way_out")  # causes
+
+
+@dataclass(frozen=True, eq=False)
+class Doubts:
+    """Whether the model explains the trace, and what could explain what it leaves."""
+
+    explained: Explained
+    causes: tuple[Cause, ...]  # the best one first
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """One sentence or two for each doubt."""
+        whole = self.explained.sentence()
+        return (*([whole] if whole else []), *(f"{cause}." for cause in self.causes))
+
+    def as_dict(self) -> ExplainedRecord:
+        """As plain values for JSON, SI."""
+        told = self.explained
+        return {
+            "explained": told.ok, "left_N": told.left, "noise_N": told.noise, "noise_is_of_air": told.air,
+            "runs": told.runs, "runs_of_noise": told.runs_of_noise,
+            "not_explained": [
+                {"way": place.kind, "insertion": place.insertion, "shallow_m": place.shallow, "deep_m": place.deep,
+                 "force_N": place.force, "share": place.share}
+                for place in told.places
+            ],
+            "causes": [{"kind": one.kind, "share": one.share, "text": one.text} for one in self.causes],
+        }  # fmt: skip
+
+
+def doubts(trace: Trace, segments: Segments, fit: Fit, extensions: Collection[str]) -> Doubts:
+    """The doubts about the fit of all samples with these extensions of K06."""
+    told = explained(trace, segments, fit)
+    found = causes(trace, segments, fit, told)
+    shaking = noise_of(trace.depth)
+    if not told.ok and shaking * fit.parameters.get("coupling_stiffness") > told.noise:
+        text = (
+            f"The depth has a noise of {shaking * 1e6:.2g} um, which the spring between needle and tissue turns into "
+            "force. To tell: smooth the depth, or take it from the robot's command"
+        )
+        found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
+    if not any(one.kind in UNEQUAL for one in found):
+        found = (*_asymmetry(trace, segments, fit, told, extensions), *found)
+    return Doubts(told, found)
+
+
+def _asymmetry(
+    trace: Trace, segments: Segments, fit: Fit, told: Explained, extensions: Collection[str]
+) -> tuple[Cause, ...]:
+    """What the two ways themselves show: the model may have explained it by a wall or a tail that is not there."""
+    ways = both_ways(trace, segments, fit)
+    if ways is None or abs(ways.ratio - 1) < UNEVEN or (ways.ratio < 1 and WEAKER & set(extensions)):
+        return ()
+    slow = fit.noise.slow_and_white()[0] if told.ok else 0.0
+    if abs(ways.difference) < SURE * max(slow, told.blocks.noise):
+        return ()
+    kind, text = way_out(ways.ratio)
+    return (Cause(kind, 0.0, f"{text}. The model explains it by other means: do not trust its walls"),)

@@ -1,0 +1,157 @@
+"""A model that does not explain its trace is named as such: what is left, where, and what could explain it."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from punctura.identify.doubts import doubts
+from punctura.identify.fit import Misfit, fit
+from punctura.identify.intervals import Estimate
+from punctura.identify.model import Model
+from punctura.identify.parameters import Parameters, default_coupling, default_membrane
+from punctura.identify.verdict import verdicts
+from punctura.trace import Trace, segment
+from traces import MEMBRANE, NEEDLE, RATE, force_of, motion, trace
+
+
+def fitted(made):
+    """K06 with one wall, fitted from the truth: no search is needed."""
+    row = default_membrane()
+    row[:5] = 5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(4000.0))
+    return fit(Misfit(made, start), Model(1).names, start)
+
+
+def doubted(made, extensions=()):
+    return doubts(made, segment(made), fitted(made), extensions)
+
+
+def changed(change, seed=1, noise=8e-3, **options):
+    """A trace whose force is changed: change(depth, force, going in) gives the force, N."""
+    time, depth = motion(**options)
+    force = change(depth, force_of(depth), np.gradient(depth) >= 0)
+    return Trace(depth, force + noise * np.random.default_rng(seed).normal(size=len(depth)), time)
+
+
+def pulled(ratio):
+    return lambda depth, force, inward: np.where(force < 0, ratio * force, force)
+
+
+def at_two_speeds():
+    """Two insertions at 2 and 16 mm/s; the force grows with the speed to the power 0.15."""
+    ways = [np.arange(0, 15e-3, speed / RATE) for speed in (2e-3, 16e-3)]
+    depth = np.concatenate([part for way in ways for part in (way, way[::-1])])
+    time = np.arange(len(depth)) / RATE
+    force = force_of(depth) * (np.abs(np.gradient(depth, time)) / 5e-3 + 1e-3) ** 0.15
+    return Trace(depth, force + 8e-3 * np.random.default_rng(1).normal(size=len(depth)), time)
+
+
+def test_a_trace_of_the_model_itself_is_explained_in_any_white_noise():
+    for seed in range(12):
+        for noise in (2e-3, 20e-3):
+            told = doubted(trace(noise=noise, seed=seed))
+            assert told.explained.ok and told.sentences == () and told.causes == ()
+    assert told.explained.noise == pytest.approx(20e-3, rel=0.3) and told.explained.air
+    assert told.explained.runs == pytest.approx(told.explained.runs_of_noise, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("made", "kind", "words"),
+    [
+        (changed(pulled(2.2)), "barbs", "resists 2.2 times as much as the way in"),
+        (changed(pulled(0.5)), "asymmetric_way_out", "resists 0.5 times as much as the way in"),
+        (at_two_speeds(), "rate", "The force depends on the speed"),
+        (
+            changed(lambda depth, force, inward: force * (1 + 0.12 * np.sin(2 * np.pi * depth / 1.5e-3))),
+            "ripple",
+            "with a period of 1.5 mm",
+        ),
+        (
+            changed(lambda depth, force, inward: force + 0.15 * inward * np.clip((depth - 9e-3) / 2e-3, 0, 1)),
+            "depth",
+            "a wall more, or another law",
+        ),
+    ],
+    ids=["barbs", "weak way out", "rate", "ripple", "wall more"],
+)
+def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
+    told = doubted(made)
+    assert not told.explained.ok and "does not explain the trace" in told.sentences[0]
+    named = next(cause for cause in told.causes if cause.kind == kind)
+    assert words in named.text and "To tell: " in named.text and named.share > 0.6
+    assert told.explained.runs < 0.7 * told.explained.runs_of_noise
+
+
+def test_noise_of_the_depth_is_named_and_not_a_wall():
+    made = trace(noise=8e-3)
+    shaken = replace(made, depth=made.depth + 10e-6 * np.random.default_rng(2).normal(size=len(made)))
+    told = doubted(shaken)
+    assert not told.explained.ok and [cause.kind for cause in told.causes] == ["depth_noise"]
+    assert "noise of 10 um" in told.causes[0].text or "noise of 9" in told.causes[0].text
+
+
+def test_the_place_that_is_not_explained_is_named():
+    """A bump of 0.2 N from 11 to 13 mm on the way in."""
+    bump = changed(lambda depth, force, inward: force + 0.2 * inward * ((depth > 11e-3) & (depth < 13e-3)))
+    place = doubted(bump).explained.places[0]
+    assert (place.kind, place.insertion) == ("in", 0)
+    assert (place.shallow, place.deep) == pytest.approx((11e-3, 13e-3), abs=0.4e-3)
+    assert place.force == pytest.approx(0.2, abs=0.08) and "on the way in from 11" in str(place)
+
+
+def test_slow_noise_that_air_shows_is_no_misfit():
+    rng, made = np.random.default_rng(3), trace(noise=8e-3, hold=1.0)
+    slow = np.zeros(len(made))
+    for i in range(1, len(slow)):
+        slow[i] = 0.95 * slow[i - 1] + 5e-3 * rng.normal()
+    assert doubted(replace(made, force=made.force + slow)).explained.ok
+
+
+def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless():
+    """The fit is told to leave nothing: as if walls more had explained the asymmetric way out."""
+    made = changed(pulled(0.5))
+    found = fitted(made)
+
+    class Explains(Misfit):
+        def forces(self, parameters):
+            return smooth
+
+    smooth = changed(pulled(0.5), noise=0.0).force
+    there = Explains(made, found.parameters)
+    left = replace(found, misfit=there, residuals=smooth - made.force)
+    told = doubts(made, segment(made), left, ("tail",))
+    assert told.explained.ok and [cause.kind for cause in told.causes] == ["asymmetric_way_out"]
+    assert "do not trust its walls" in told.sentences[0]
+    assert doubts(made, segment(made), left, ("set",)).causes == ()
+
+
+def test_the_command_names_it_and_draws_it(punctura, tmp_path):
+    made = changed(pulled(2.2))[::6]
+    rows = np.column_stack([made.time, 1e3 * made.depth, made.force])
+    np.savetxt(tmp_path / "a.csv", rows, delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    needle = f"diameter_mm={NEEDLE.diameter * 1e3},tip_angle_rad={NEEDLE.tip_angle}"
+    done = punctura("identify", tmp_path / "a.csv", "--needle", needle, "--membranes", 1, "--json",
+                    "--report", tmp_path / "a.html")  # fmt: skip
+    told = json.loads(done.stdout)
+    assert told["explained"]["causes"][0]["kind"] == "barbs"
+    assert any("The way out is asymmetric" in text for text in told["not_told"])
+    assert "The way out is asymmetric" in (tmp_path / "a.html").read_text()
+
+
+def unknown(name):
+    return Estimate(name, 1.0, None, None, "-")
+
+
+@pytest.mark.parametrize(
+    "kind", ["stiffness", "friction", "thickness", "set", "coupling_stiffness", "drift", "surface"]
+)
+def test_no_advice_asks_for_what_the_trace_has(kind):
+    made = trace(noise=8e-3, times=2, hold=70.0)
+    name = kind if kind in ("coupling_stiffness", "drift") else f"membrane[0].{kind}"
+    text = verdicts([unknown(name)], made, segment(made), fitted(made))[0]
+    for wrong in ("withdrawal", "withdraw,", "and withdraw", "before contact", "second time", "through", "rest for"):
+        assert wrong not in text, text
+    short = made[: int(np.argmax(made.depth > 7e-3))]
+    less = verdicts([unknown("membrane[0].stiffness")], short, segment(short), fitted(short))[0]
+    assert "insert until the tip is through" in less

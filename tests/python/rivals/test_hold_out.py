@@ -1,0 +1,92 @@
+"""Predictions: the second insertion from the first, and a trace from the others of a folder."""
+
+import json
+
+import numpy as np
+import pytest
+from punctura.rivals import hold_out
+from punctura.rivals.hold_out import REPEAT, another_trace, fitted, means, second_insertion
+from punctura.rivals.kinds import kinds
+from punctura.trace import Trace, TraceError
+from traces import NEEDLE, trace
+
+NEEDLE_WORDS = f"diameter_mm={NEEDLE.diameter * 1e3},tip_angle_rad={NEEDLE.tip_angle}"
+NOISE = 8e-3
+
+
+@pytest.fixture(autouse=True)
+def two_rivals(monkeypatch):
+    """Two rivals are enough here, and take a second less each."""
+    few = {name: kinds()[name] for name in ("exponential", "sign_of_velocity")}
+    monkeypatch.setattr(hold_out, "kinds", lambda: few)
+
+
+def made(surface=5e-3, seed=1, times=1, noise=NOISE):
+    whole = trace(noise=0.0, surface=surface, times=times, hold=0.3)
+    few = whole[::5]
+    return Trace(few.depth, few.force + noise * np.random.default_rng(seed).normal(size=len(few)), few.time, "made")
+
+
+def test_the_second_insertion_of_the_models_own_trace_is_predicted_to_the_noise_and_rivals_are_worse():
+    twice = made(times=2)
+    told = {one.name: one for one in second_insertion(twice, NEEDLE, 1)}
+    assert told["k06"].rmse == pytest.approx(NOISE, rel=0.15)
+    assert told["exponential"].rmse > told["k06"].rmse < told["sign_of_velocity"].rmse
+    peak = float(np.abs(twice.force[twice.strokes == 1]).max())
+    assert told["k06"].rmse_share == pytest.approx(told["k06"].rmse / peak) and REPEAT in told
+    errors = [one.rmse for one in second_insertion(twice, NEEDLE, 1)]
+    assert errors == sorted(errors)
+
+
+def test_what_changes_in_the_second_insertion_is_a_prediction_error_and_not_fitted():
+    twice = made(times=2)
+    weaker = Trace(twice.depth, np.where(twice.strokes == 1, 0.6, 1.0) * twice.force, twice.time)
+    told = {one.name: one for one in second_insertion(weaker, NEEDLE, 1)}
+    missing = 0.4 * float(np.sqrt(np.mean(twice.force[twice.strokes == 1] ** 2)))
+    assert told["k06"].rmse == pytest.approx(missing, rel=0.1)
+
+
+def test_one_insertion_cannot_be_held_out():
+    with pytest.raises(TraceError, match="has one insertion"):
+        second_insertion(made(), NEEDLE, 1)
+
+
+def test_each_trace_of_a_folder_is_predicted_at_its_own_contact_without_its_own_fit():
+    traces = {name: made(surface, seed) for name, surface, seed in (("a", 4e-3, 1), ("b", 5e-3, 2), ("c", 6e-3, 3))}
+    known = {name: fitted(one, NEEDLE, 1, lambda _: None) for name, one in traces.items()}
+    found = another_trace(known)
+    k06 = {one.trace: one for one in found if one.name == "k06"}
+    assert set(k06) == {"a", "b", "c"} and len(found) == 3 * 4
+    for name, one in k06.items():
+        assert len(one.force) == len(traces[name])
+        assert one.rmse < 0.1 * np.abs(traces[name].force).max()  # the contact is known to two samples
+    twice_as_strong = dict(known)
+    strong = fitted(Trace(traces["c"].depth, 2 * traces["c"].force, traces["c"].time), NEEDLE, 1, lambda _: None)
+    twice_as_strong["c"] = strong
+    told = {one.trace: one for one in another_trace(twice_as_strong) if one.name == "k06"}
+    assert told["c"].rmse > 0.3 * np.sqrt(np.mean(strong.trace.force**2))  # its own fit is not used
+    told_means = {one["name"]: one for one in means(found)}
+    assert told_means["k06"]["rmse_N"] == pytest.approx(np.mean([one.rmse for one in k06.values()]))
+    with pytest.raises(TraceError, match="at least 2 traces"):
+        another_trace({"a": known["a"]})
+
+
+def write(path, one):
+    rows = np.column_stack([one.time, 1e3 * one.depth, one.force])
+    np.savetxt(path, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="", fmt="%.8g")
+
+
+def test_the_command_predicts_an_insertion_and_a_folder(punctura, tmp_path):
+    write(tmp_path / "twice.csv", made(times=2))
+    common = ("--needle", NEEDLE_WORDS, "--membranes", 1, "--hold-out")
+    done = punctura("identify", tmp_path / "twice.csv", *common, "--json")
+    names = [one["name"] for one in json.loads(done.stdout)["hold_out"]]
+    assert done.status == 0 and sorted(names) == ["exponential", "k06", REPEAT, "sign_of_velocity"]
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for i in range(2):
+        write(folder / f"{i}.csv", made(4e-3 + i * 1e-3, seed=i))
+    (folder / "broken.csv").write_text("time_s,depth_mm,force_N\n")
+    done = punctura("identify", folder, *common)
+    assert done.status == 1 and "Mean over 2 traces" in done.stdout and "broken.csv: " in done.stdout
+    assert punctura("identify", folder, *common, "--out", tmp_path / "out").status == 2
