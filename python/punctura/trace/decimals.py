@@ -9,6 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.units import split_cell
+
 Decimal = Literal[".", ","]
 
 _BETWEEN = r"[\s'\u2019]"  # marks between thousands, beside a point or a comma: any space, also a narrow one
@@ -37,7 +39,7 @@ def decimal_in(cells: Iterable[str]) -> Decimal:
 
     `1,050` can be a thousand and fifty; beside `0.25` and without `0,25` it is.
     """
-    seen = {_shown(cell.strip()) for cell in cells if _NUMBER.fullmatch(cell)}
+    seen = {_shown(cell.strip()) for cell, _ in map(split_cell, cells) if _NUMBER.fullmatch(cell)}
     return "," if (",", True) in seen or ((",", False) in seen and (".", True) not in seen) else "."
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from punctura.trace.clock import is_clock
 from punctura.trace.decimals import Decimal, number
-from punctura.trace.units import is_unit, split_name, unit_of
+from punctura.trace.units import is_unit, split_cell, split_name, unit_of
 
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 
@@ -27,7 +27,8 @@ def is_number(cell: Any, decimal: Decimal = ".") -> bool:
 def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     """The index of the first row of numbers: it and the next row have `width` cells and at least two numbers.
 
-    len(rows) if there is none. A report above the table may contain single numbers.
+    len(rows) if there is none. A report above the table may contain single numbers. Numbers with units (`0.35 N`) count
+    if there is no row of plain ones: they can be names of columns.
     """
     least = min(2, width)
     full = [len(row) == width and sum(is_number(cell, decimal) for cell in row) >= least for row in rows]
@@ -36,7 +37,8 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
             while i > 0 and _has_gaps(rows[i - 1], width, decimal):
                 i -= 1
             return i
-    return len(rows)
+    bare = [[split_cell(cell)[0] if isinstance(cell, str) else cell for cell in row] for row in rows]
+    return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
 
 
 def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:

@@ -127,7 +127,7 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
             role: column[np.argsort(held["depth"], kind="stable")] for role, column in held.items() if role != "time"
         }
     elif "time" in held:
-        held = _with_growing_time(held, found)
+        held = _with_growing_time(held, found, "time" in reading.columns or "time" in reading.needed)
         if (left := len(held["force"])) < 5:
             raise TraceError(
                 f"{source}: {found[-1].text}. A trace needs at least 5 samples, and {left} would be left: check which "
@@ -144,8 +144,8 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
 
 
-def _with_growing_time(held: dict[str, Array], found: list[Finding]) -> dict[str, Array]:
-    """Leaves out samples whose time does not grow, and says so."""
+def _with_growing_time(held: dict[str, Array], found: list[Finding], needed: bool) -> dict[str, Array]:
+    """Leaves out samples whose time does not grow, and says so; a time that is too coarse as a whole if not needed."""
     time = held["time"]
     grows = np.concatenate(([True], time[1:] > np.maximum.accumulate(time)[:-1]))
     if grows.all():
@@ -157,7 +157,11 @@ def _with_growing_time(held: dict[str, Array], found: list[Finding]) -> dict[str
         text = f"time goes back {int(back.sum())} times, first at sample {int(np.argmax(back)) + 1}"
         found.append(Finding("time_goes_back", f"{text}; {lost} samples are left out", True, severe))
     else:
-        text = f"{lost} samples have the time of the sample before, first sample {row}; they are left out"
-        text += ". Record a finer time, or read the trace without (--column time=)" if severe else ""
+        text = f"{lost} samples have the time of the sample before, first sample {row}"
+        if severe and not needed:
+            text += "; the trace is read without time. Record a finer one"
+            found.append(Finding("time_repeats", text, True))
+            return {role: column for role, column in held.items() if role != "time"}
+        text += "; they are left out" + (". Record a finer time" if severe else "")
         found.append(Finding("time_repeats", text, True, severe))
     return {role: column[grows] for role, column in held.items()}

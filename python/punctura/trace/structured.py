@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.clock import clock_seconds, is_clock
+from punctura.trace.cells import column
 from punctura.trace.decimals import numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import with_unit
@@ -119,10 +119,8 @@ def _parts(where: str, name: str, value: Any, units: Mapping[str, Any]) -> Itera
                     yield from _parts(here, key, cells, units)
                 return
             value = np.array([numbers(row) for row in value])
-        elif is_clock(value):
-            name, value = with_unit(name, "s"), clock_seconds(value)
         else:
-            value = numbers(value)
+            name, value = column(with_unit(name, str(units.get(name, ""))), value)
             if not np.isfinite(value).any():  # texts
                 return
     if isinstance(value, np.ndarray) and value.ndim in (1, 2) and value.dtype.kind in "biuf":

@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv
 from numpy.typing import NDArray
 
-from punctura.trace.clock import clock_column, clock_seconds, is_clock
+from punctura.trace.cells import are_plain, column, unit_beside
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
-from punctura.trace.heading import column_names, first_row
+from punctura.trace.heading import column_names, first_row, with_unit
 from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, read_lines, survey
 from punctura.trace.lvm import is_lvm, lvm_lines
 from punctura.trace.size import check_bytes, check_size
@@ -71,10 +72,14 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
     cells, left_out = _parsed(path, rows, names, delimiter)
     table = Table()
     try:
-        for name in names:
-            clock = is_clock(cells[name].slice(0, LOOKED_AT).to_pylist())
-            read = clock_seconds(cells[name].to_pylist()) if clock else _numbers(cells[name], mark, decimal is not None)
-            table[clock_column(name) if clock else name] = np.insert(read, left_out, np.nan)
+        for name, beside in zip(names, [*names[1:], None], strict=True):
+            read: Array
+            if are_plain(cells[name].slice(0, LOOKED_AT).to_pylist()):
+                unit = _unit_beside(beside, cells[beside]) if beside else ""
+                named, read = with_unit(name, unit), _numbers(cells[name], mark, decimal is not None)
+            else:
+                named, read = column(name, cells[name].to_pylist(), mark, decimal is not None)
+            table[named] = np.insert(read, left_out, np.nan)
     except DoubtfulNumber as doubt:
         text = (
             f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate"
@@ -125,6 +130,12 @@ class _Rows(io.RawIOBase):
 def _spaced(line: str, delimiter: str) -> str:
     """The line with single spaces, if these are the delimiter."""
     return " ".join(re.split("[ \t]+", line.strip())) if delimiter == " " else line
+
+
+def _unit_beside(name: str, cells: pa.ChunkedArray) -> str:
+    """The first cells alone show most columns that hold no unit."""
+    likely = unit_beside(name, cells.slice(0, LOOKED_AT).to_pylist())
+    return unit_beside(name, pc.unique(cells).to_pylist()) if likely else ""
 
 
 def _numbers(cells: pa.ChunkedArray, mark: Decimal, asked: bool) -> Array:

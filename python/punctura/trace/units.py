@@ -67,6 +67,16 @@ def unit_of(text: str) -> str:
     return known or ""
 
 
+_WITH_UNIT = re.compile(r"\s*([+-]?[.,]?\d[\d.,'\u2019\s]*(?:[eE][+-]?\d+)?)\s*([^\d\s.,'\u2019+-].*)")
+
+
+def split_cell(cell: str) -> tuple[str, str]:
+    """A number and its unit by the usual symbol: `0.35 N`. Another cell as it stands, and an empty unit."""
+    found = _WITH_UNIT.fullmatch(cell)
+    unit = unit_of(found[2]) if found else ""
+    return (found[1], unit) if found and unit else (cell, "")
+
+
 def role_of(unit: str) -> str:
     """Which column has this unit, by its usual symbol: depth, force or time; empty if it is none of them."""
     return next((role for role, units in UNITS.items() if unit in units), "")

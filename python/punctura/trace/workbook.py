@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import IO, Any
 
 from punctura.extras import MissingPackageError, optional
-from punctura.trace.clock import clock_column, clock_seconds, is_clock
-from punctura.trace.decimals import Decimal, decimal_in, numbers
-from punctura.trace.heading import column_names, first_row
+from punctura.trace.cells import column, unit_beside
+from punctura.trace.decimals import Decimal, decimal_in
+from punctura.trace.heading import column_names, first_row, with_unit
 from punctura.trace.lines import LOOKED_AT
 from punctura.trace.packed import check_workbook
 from punctura.trace.reading import Reading
@@ -79,13 +79,13 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     rows = [(*row, *(None for _ in range(width - len(row)))) for row in rows]
     mark = decimal or decimal_in(cell for row in rows[-LOOKED_AT:] for cell in row if isinstance(cell, str))
     first = first_row(rows, width, mark)
+    names = column_names(rows[:first], width) if first < len(rows) else []
+    cells = [[row[i] for row in rows[first:]] for i in range(width)]
     table = Table()
-    for i, name in enumerate(column_names(rows[:first], width) if first < len(rows) else ()):
-        cells = [row[i] for row in rows[first:]]
-        clock = is_clock(cells)
-        table[clock_column(name) if clock else name] = (
-            clock_seconds(cells) if clock else numbers(cells, mark, decimal is not None)
-        )
+    for i, name in enumerate(names):
+        named, values = column(name, cells[i], mark, decimal is not None)
+        beside = unit_beside(names[i + 1], set(cells[i + 1])) if i + 1 < width else ""
+        table[with_unit(named, beside)] = values
     return table
 
 

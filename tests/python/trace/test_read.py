@@ -116,7 +116,7 @@ CHANGES = {
     "drift": lambda made: {"force_N": made.force + 0.1 * made.time / made.time[-1]},
     "no_time": lambda made: {"time_s": None},
     "rows_without_numbers": lambda made: {"force_N": np.where(np.arange(len(made)) % 50 == 7, np.nan, made.force)},
-    "time_repeats": lambda made: {"time_s": np.repeat(made.time[::2], 2)[: len(made)]},
+    "time_repeats": lambda made: {"time_s": np.where(np.arange(len(made)) % 20 == 7, np.roll(made.time, 1), made.time)},
     "gap": lambda made: {"time_s": made.time + (np.arange(len(made)) > 150)},
     "time_doubtful": lambda made: {"time_s": made.time * 1e3},
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
@@ -178,7 +178,7 @@ def test_a_time_that_leaves_too_few_samples_says_why_and_what_to_do(tmp_path, tu
     with pytest.raises(
         TraceError, match=rf"{named}.* needs at least 5 samples, and 1 would be left: check which column"
     ):
-        read_trace(file)
+        read_trace(file, {"time": "time_s"})
 
 
 def test_no_withdrawal_and_no_pop_are_named(tmp_path):
