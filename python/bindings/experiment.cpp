@@ -1,6 +1,8 @@
 // core/punctura/lab/plant/experiment.hpp: K06 section 4 without hardware.
 #include "punctura/lab/plant/experiment.hpp"
 
+#include <nanobind/stl/optional.h>
+
 #include "bindings.hpp"
 #include "motion.hpp"
 #include "state.hpp"
@@ -86,9 +88,9 @@ void bind_experiment(nb::module_& m) {
       .def(
           "__init__",
           [](AnyExperiment* self, const Scene& scene, const AnyMotion& motion, const DeviceDynamics& plant,
-             const Hand& hand, std::uint64_t seed, const Object<"_Vector">& axis) {
+             const Hand& hand, std::uint64_t seed, const std::optional<Triple>& axis) {
             raise_if(check(scene));
-            const Triple direction = axis.is_none() ? scene.membranes.front().inward_normal : nb::cast<Triple>(axis);
+            const Triple direction = axis.value_or(scene.membranes.front().inward_normal);
             new (self) AnyExperiment(scene, motion, unit(direction, "axis"), plant, hand, seed);
           },
           nb::arg("scene"), nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},

@@ -116,11 +116,14 @@ class Fleet : public OneThread {
     };
     require(nb::isinstance<nb::tuple>(trial) && nb::len(trial) == 6);
     const auto parts = nb::borrow<nb::tuple>(trial);
-    batch::TrialHistory h{nb::cast<Scene>(parts[0]), to_vector(nb::cast<Triple>(parts[1])),
-                          nb::cast<std::uint64_t>(parts[2])};
+    batch::TrialHistory h{};
+    Triple start;
+    std::size_t begun = 0;
+    require(nb::try_cast(parts[0], h.scene) && nb::try_cast(parts[1], start) && nb::try_cast(parts[2], h.seed) &&
+            nb::try_cast(parts[5], begun));
     raise_if(check(h.scene));
+    h.start = to_vector(start);
     const Input speed = input_1d(parts[3], "speed"), ticks = input_1d(parts[4], "ticks");
-    const auto begun = nb::cast<std::size_t>(parts[5]);
     require(is_place(h.start) && speed.size() == ticks.size());
     for (std::size_t i = 0; i < speed.size(); ++i) {
       const double n = ticks.data()[i];

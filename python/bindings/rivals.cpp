@@ -31,7 +31,9 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
     for (const auto& number : run.rival.numbers()) {
       if (!numbers.contains(number.name)) continue;
       ++used;
-      const double value = nb::cast<double>(numbers[number.name]);
+      double value = 0;
+      if (!nb::try_cast(numbers[number.name], value))
+        throw nb::type_error((name + "." + number.name + " must be a number").c_str());
       if (!(value >= number.low && value <= number.high))
         problems.push_back(
             {name + "." + number.name, value,
@@ -43,9 +45,9 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
     std::string known;
     for (const auto& number : run.rival.numbers()) known += std::string(known.empty() ? "" : ", ") + number.name;
     for (const auto& [key, value] : numbers)
-      if (("," + std::string(" ") + known + ",").find(" " + nb::cast<std::string>(key) + ",") == std::string::npos)
-        raise_word(name + "." + nb::cast<std::string>(key), nb::cast<std::string>(key),
-                   ("is not a parameter of this rival. It has " + known).c_str());
+      if (const std::string given = nb::str(key).c_str();
+          (", " + known + ",").find(" " + given + ",") == std::string::npos)
+        raise_word(name + "." + given, given, ("is not a parameter of this rival. It has " + known).c_str());
   });
   raise_if(problems);
   return *rival;

@@ -128,6 +128,8 @@ def test_a_damaged_state_of_a_fleet_changes_nothing():
         (scene, start, seed, speeds, ticks, 50),
         (scene, start, seed, [0.01, 0.02], ticks, begun),
         (scene, start, seed),
+        ("scene", start, seed, speeds, ticks, begun),
+        (scene, start, -1, speeds, ticks, begun),
     ):
         with pytest.raises(ValueError, match="state"):
             made.state = [bad]

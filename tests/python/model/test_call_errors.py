@@ -34,6 +34,11 @@ FRICTION = "membrane[0].friction"
         (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene?"),
         (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
         (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
+        (
+            lambda: pn.Experiment(SCENE, pn.Strokes(DOWN, DOWN), axis=(0, 1)),
+            "axis must be three numbers or None, not tuple",
+        ),
+        (lambda: core.Rival("dahl", {"friction": "1 N"}), "dahl.friction must be a number"),
         (lambda: LINE.step.__self__.__class__.step(3, 4), "Proxy1d.step(): needs an object of Proxy1d"),
         (lambda: core.Fleet((0, -1, 0)).step([], -1), "Fleet.step(): an argument has a wrong type or"),
         (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be bytes, not int."),
