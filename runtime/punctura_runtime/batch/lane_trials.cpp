@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 namespace punctura::batch {
 namespace {
@@ -11,6 +13,15 @@ namespace {
 double scale_of(const Scene& scene) {
   const double scale = force_scale(scene, detail::model_of<double>(scene), ForceLimits{});
   return std::max(scale, std::numeric_limits<double>::min());
+}
+
+/// The desired motion of the hand in a tick. period: s.
+template <typename Motion>
+Desired desired(Motion& motion, double period, std::size_t tick) noexcept {
+  if constexpr (std::is_pointer_v<Motion>)
+    return {Vector3d(motion + 3 * tick), {}};  // given positions
+  else
+    return motion.at(static_cast<double>(tick) * period);
 }
 
 }  // namespace
@@ -117,23 +128,30 @@ void LaneTrials::put_hand(std::size_t lane, const DeviceDynamics& plant, const H
 }
 
 Desired LaneTrials::at(LaneTrial& own, std::size_t tick) noexcept {
-  if (const auto* given = std::get_if<const double*>(&own.motion)) return {Vector3d(*given + 3 * tick), {}};
-  const double time = static_cast<double>(tick) * own.period;
-  if (auto* strokes = std::get_if<StrokesMotion>(&own.motion)) return strokes->at(time);
-  if (auto* steered = std::get_if<Steered>(&own.motion)) return steered->at(time);
-  return std::get_if<RecordedMotion>(&own.motion)->at(time);
+  return std::visit([&](auto& motion) { return desired(motion, own.period, tick); }, own.motion);
 }
 
 void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noexcept {
   LaneTrial& own = lanes_[lane];
-  for (std::size_t k = 0; k < ticks; ++k) {
-    SceneBlock::Inputs& to = block_->inputs[k];
-    const Desired desired = at(own, tick + k);
-    set(to.position, lane, desired.position);
-    if (!block_->has_hand) continue;
-    set(to.velocity, lane, desired.velocity);
-    set(to.noise, lane, own.trembles ? tremor_noise(own.seed, tick + k) : Vector3d());
-  }
+  const auto store = [lane](LaneVectors& to, const Vector3d& v) {
+    for (std::size_t j = 0; j < 3; ++j) to[j].of[lane] = v[j];
+  };
+  std::visit(
+      [&, period = own.period](auto& motion) {
+        for (std::size_t k = 0; k < ticks; ++k) {
+          const Desired now = desired(motion, period, tick + k);
+          store(block_->inputs[k].position, now.position);
+          store(block_->inputs[k].velocity, now.velocity);
+        }
+      },
+      own.motion);
+  if (block_->has_hand)
+    for (std::size_t k = 0; k < ticks; ++k)
+      store(block_->inputs[k].noise, own.trembles ? tremor_noise(own.seed, tick + k) : Vector3d());
+  for (std::size_t each = lane + 1; each < end_of(lane); ++each)
+    for (std::size_t k = 0; k < ticks; ++k)
+      for (LaneVectors* to : {&block_->inputs[k].position, &block_->inputs[k].velocity, &block_->inputs[k].noise})
+        for (LaneNumbers& numbers : *to) numbers.of[each] = numbers.of[lane];
 }
 
 void LaneTrials::set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept {

@@ -30,12 +30,12 @@ void LaneWall::leave() noexcept {
 
 Crossing LaneWall::crossing(const Vector3d& b, const Vector3d& axis) const noexcept {
   if (tissue_) return crossing_along(tissue_->law, needle_, placed_, b, axis);
-  return crossing_along(SceneLaw<double>(needle_, placed_.membrane, {}), needle_, placed_, b, axis);
+  return crossing_along(law_, needle_, placed_, b, axis);
 }
 
 double LaneWall::through(const Vector3d& axis) const noexcept {
   if (tissue_) return through_along(tissue_->law, needle_, placed_, axis);
-  return through_along(SceneLaw<double>(needle_, placed_.membrane, {}), needle_, placed_, axis);
+  return through_along(law_, needle_, placed_, axis);
 }
 
 }  // namespace punctura::batch

@@ -9,15 +9,16 @@
 namespace punctura::batch {
 
 /// The depth (m) behind which a needle along the axis has passed a membrane.
-inline double through_along(const SceneLaw<double>& law, const Needle& needle, const PlacedMembrane& placed,
-                            const Vector3d& axis) noexcept {
+template <ObliqueLaw L>
+double through_along(const L& law, const Needle& needle, const PlacedMembrane& placed, const Vector3d& axis) noexcept {
   const Vector3d normal = to_vector(placed.inward_normal);
   const double cosine = std::abs(axis.dot(normal)) / normal.norm();
   return crossing(law, needle, placed.membrane.thickness, cosine).through;
 }
 /// The crossing of a needle that has entered a membrane in `direction`.
-inline Crossing crossing_along(const SceneLaw<double>& law, const Needle& needle, const PlacedMembrane& placed,
-                               const Vector3d& direction, const Vector3d& axis) noexcept {
+template <ObliqueLaw L>
+Crossing crossing_along(const L& law, const Needle& needle, const PlacedMembrane& placed, const Vector3d& direction,
+                        const Vector3d& axis) noexcept {
   const Vector3d normal = to_vector(placed.inward_normal).stableNormalized();
   return crossing(law, needle, placed.membrane.thickness, entry_cosine(normal, direction, axis));
 }

@@ -19,7 +19,7 @@ constexpr std::uint64_t split_mix(std::uint64_t key, std::uint64_t count) noexce
 constexpr Vector3d tick_noise(std::uint64_t seed, std::uint64_t number) noexcept {
   const std::uint64_t word = split_mix(split_mix(seed, 1), number + 1);
   const auto of = [](std::uint64_t bits) {
-    return (static_cast<double>(static_cast<std::int64_t>(bits & 0x1fffff)) + 0.5) * 0x1p-21 - 0.5;
+    return (static_cast<double>(static_cast<std::int64_t>(bits & 0x1fffff)) - (0x1p20 - 0.5)) * 0x1p-21;
   };
   return {of(word), of(word >> 21), of(word >> 42)};
 }
