@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -41,6 +41,11 @@ Speed = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_MM_PER_S, le=MOST_M
 Push = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_PUSH_N, le=MOST_PUSH_N)]
 Volume = Annotated[float, Field(allow_inf_nan=False, ge=LEAST_ML, le=MOST_ML)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
+
+
+def asked(label: str) -> Any:
+    """The key with which a form asks for a goal. label: of the form's field, with the unit."""
+    return Field(json_schema_extra={"x-label": label})
 
 
 def no_direction(vector: list[float]) -> str:

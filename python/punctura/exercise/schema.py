@@ -8,7 +8,7 @@ from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
 from punctura.exercise.fields import Space, Start, Text, Word
-from punctura.exercise.goals import AnyGoal
+from punctura.exercise.goals import GOALS, AnyGoal
 from punctura.files.tables import Table
 
 
@@ -27,5 +27,9 @@ class ExerciseFile(Table):
 
 
 def exercise_json_schema() -> JsonSchemaValue:
-    """JSON Schema of exercise files."""
-    return ExerciseFile.model_json_schema()
+    """JSON Schema of exercise files. `x-label` marks the key with which a form asks for a goal, `x-syringe` a goal that
+    needs a syringe."""
+    schema = ExerciseFile.model_json_schema()
+    for goal in GOALS.values():
+        schema["$defs"][goal.__name__]["x-syringe"] = goal.needs_syringe
+    return schema

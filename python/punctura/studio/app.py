@@ -17,6 +17,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
 
 from punctura import __version__
+from punctura.exercise import exercise_json_schema
 from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
 from punctura.studio.catalog import ready_scenes
@@ -78,6 +79,9 @@ class Studio:
     async def schema(self, request: Request) -> Response:
         return JSONResponse(scene_json_schema())
 
+    async def exercise_schema(self, request: Request) -> Response:
+        return JSONResponse(exercise_json_schema())
+
     async def scene(self, request: Request) -> Response:
         text = self.session.run.loaded.text()
         headers = {"content-disposition": 'attachment; filename="scene.toml"'}
@@ -95,6 +99,7 @@ class Studio:
             Route("/", self.index),
             Route("/api/access", self.access),
             Route("/api/schema", self.schema),
+            Route("/api/exercise-schema", self.exercise_schema),
             Route("/api/scene.toml", self.scene),
             *Api(self.session).routes(),
             WebSocketRoute("/ws", self.socket),

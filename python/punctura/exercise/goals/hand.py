@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
 from punctura.events import Event
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance
+from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
 from punctura.exercise.goals.goal import Course, Goal
 from punctura.exercise.judge import Limit, SoFar
 from punctura.exercise.moment import Moment, by, first_of
@@ -30,7 +30,7 @@ class EntryAngle(Goal):
 
     kind: Literal["entry_angle"]
     angle_deg: Angle | None = None  # default: the angle of the start
-    within_deg: Tolerance
+    within_deg: Annotated[Tolerance, asked("Enter at this angle, within degrees")]
 
     def judge(self, course: Course) -> AngleJudge:
         asked = course.start.angle_deg if self.angle_deg is None else self.angle_deg
@@ -75,7 +75,7 @@ class MostSpeed(Goal):
     """In tissue, the point never moves in faster than this."""
 
     kind: Literal["speed"]
-    at_most_mm_per_s: Speed
+    at_most_mm_per_s: Annotated[Speed, asked("Push in with at most, mm/s")]
 
     def judge(self, course: Course) -> SpeedJudge:
         return SpeedJudge(self)
@@ -107,7 +107,7 @@ class NoPause(Goal):
     """On the way from the first contact to the space, the needle never stands still for so long."""
 
     kind: Literal["no_pause"]
-    seconds: Seconds = 1.0
+    seconds: Annotated[Seconds, asked("Never stand still on the way for, s")] = 1.0
 
     def judge(self, course: Course) -> PauseJudge:
         return PauseJudge(self, course.target)
@@ -148,7 +148,7 @@ class PeakForce(Goal):
     """The model's total force stays at or below this."""
 
     kind: Literal["peak_force"]
-    at_most_N: Newtons
+    at_most_N: Annotated[Newtons, asked("Force at most, N")]
 
     def judge(self, course: Course) -> ForceJudge:
         return ForceJudge(self)
@@ -184,7 +184,7 @@ class TimeLimit(Goal):
     """Everything is finished within this time after the first contact."""
 
     kind: Literal["time_limit"]
-    seconds: Seconds
+    seconds: Annotated[Seconds, asked("Time limit, s")]
 
     def judge(self, course: Course) -> TimeJudge:
         return TimeJudge(self)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from punctura.events import Event
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import Push, Seconds, Volume
+from punctura.exercise.fields import Push, Seconds, Volume, asked
 from punctura.exercise.goals.goal import Course, Goal
 from punctura.exercise.judge import Achievement, SoFar, WindowLimit
 from punctura.exercise.moment import Moment, first_of
@@ -29,7 +29,8 @@ class FeelPlunger(Goal):
     """The syringe's plunger gives way under a thumb that pushes while the point comes out behind `behind`."""
 
     kind: Literal["feel_plunger"]
-    at_least_N: Push = 1.0  # force of the thumb in the last tick before
+    # Force of the thumb in the last tick before.
+    at_least_N: Annotated[Push, asked("Push the plunger until it gives way, N at least")] = 1.0
     needs_syringe: ClassVar[bool] = True
 
     def judge(self, course: Course) -> FeelJudge:
@@ -110,7 +111,7 @@ class StopPlunger(Goal):
     """After the syringe's plunger gives way, no more than this volume leaves the syringe."""
 
     kind: Literal["stop_plunger"]
-    within_mL: Volume
+    within_mL: Annotated[Volume, asked("In the 1 s after the plunger gives way, inject at most, mL")]
     seconds: Seconds = 1.0  # after the plunger gives way
     needs_syringe: ClassVar[bool] = True
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from punctura.exercise.fields import Distance, Seconds
+from punctura.exercise.fields import Distance, Seconds, asked
 from punctura.exercise.goals.goal import Course, Goal
 from punctura.exercise.judge import Achievement, SoFar
 from punctura.exercise.quantities import tenths
@@ -48,7 +48,7 @@ class Stay(Goal):
     """The needle stays in the space."""
 
     kind: Literal["stay"]
-    seconds: Seconds
+    seconds: Annotated[Seconds, asked("Stay in the goal, s")]
     whole_tip: bool = False
 
     def judge(self, course: Course) -> StayJudge:

@@ -14,7 +14,7 @@ from punctura.errors import MISSING, Problem
 from punctura.events import Event
 from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
-from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word
+from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word, asked
 from punctura.exercise.goals.goal import Course, Given, Goal
 from punctura.exercise.judge import Limit, SoFar, WindowLimit
 from punctura.exercise.moment import Moment, first_of
@@ -28,7 +28,7 @@ class NeverPass(Goal):
     """The point never passes a membrane; with whole_tip, the whole bevel never does."""
 
     kind: Literal["never_pass"]
-    membrane: Word
+    membrane: Annotated[Word, asked("Never pass the membrane")]
     whole_tip: bool = False
 
     def judge(self, course: Course) -> NeverPassJudge:
@@ -73,7 +73,7 @@ class StopAfterPop(Goal):
 
     kind: Literal["stop_after_pop"]
     membrane: Word
-    within_mm: Distance
+    within_mm: Annotated[Distance, asked("After the pop, move on at most, mm")]
     seconds: Seconds = 0.3  # after the pop
 
     def judge(self, course: Course) -> StopJudge:
@@ -196,7 +196,8 @@ class MostDepth(Goal):
     """The point never comes deeper than this behind the far face of `behind`."""
 
     kind: Literal["depth"]
-    at_most_mm: Distance | None = None  # default: the end of the space, deepest_mm
+    # Default: the end of the space, deepest_mm.
+    at_most_mm: Annotated[Distance | None, asked("Point behind the membrane at most, mm")] = None
 
     def judge(self, course: Course) -> DepthJudge:
         return DepthJudge(self, course.target, course.space.behind)
@@ -228,7 +229,7 @@ class Entries(Goal):
     """The first membrane is entered at most this often."""
 
     kind: Literal["entries"]
-    at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES)]
+    at_most: Annotated[int, Field(ge=1, le=MOST_ENTRIES), asked("Entries into the tissue, at most")]
 
     def judge(self, course: Course) -> EntriesJudge:
         return EntriesJudge(self, course.scene)

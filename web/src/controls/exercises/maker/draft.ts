@@ -1,15 +1,6 @@
-import type { MembraneView } from "../../../wire/messages.ts";
+import type { SceneOutline } from "../../../wire/messages.ts";
 import { layersOf } from "../trace.ts";
-
-/** A ready scene for the making of an exercise: one entry of `GET /api/scenes`. SI. */
-export interface SceneOutline {
-  readonly name: string;
-  readonly title: string;
-  readonly tip_length: number;
-  readonly membranes: readonly MembraneView[];
-  /** The needle has a syringe with a plunger. */
-  readonly syringe: boolean;
-}
+import type { GoalField } from "./goals.ts";
 
 /** What the form holds. Lengths in mm; null: not wanted. */
 export interface Draft {
@@ -22,26 +13,11 @@ export interface Draft {
   readonly to: number | null;
   readonly angle: number;
   readonly wholeTip: boolean;
-  readonly stay: number | null;
-  readonly stopWithin: number | null;
-  /** N, with which the thumb pushes the plunger until it gives way. */
-  readonly push: number | null;
-  /** mL, in the second after the plunger gives way. */
-  readonly inject: number | null;
-  readonly neverPass: string;
-  readonly peakForce: number | null;
-  readonly entries: number | null;
-  /** Degrees, by which the angle of an entry may differ from `angle`. */
-  readonly angleWithin: number | null;
-  /** mm/s. */
-  readonly speed: number | null;
-  /** s, for which the needle may stand still on the way. */
-  readonly pause: number | null;
-  /** mm behind the membrane. */
-  readonly depth: number | null;
-  readonly seconds: number | null;
   readonly blind: boolean;
+  /** The number, or the membrane, of each goal that is asked for, by its kind. */
+  readonly goals: Readonly<Record<string, number | string>>;
 }
+export type FieldName = Exclude<keyof Draft, "goals"> | `goal.${string}`;
 
 const HEIGHT = 5; // mm in front of the surface, where the needle waits
 
@@ -62,42 +38,22 @@ export function draftOf(scene: SceneOutline): Draft {
     to: room !== null && room > 0.2 ? room : 8,
     angle: 90,
     wholeTip: false,
-    stay: 2,
-    stopWithin: null,
-    push: null,
-    inject: null,
-    neverPass: "",
-    peakForce: null,
-    entries: 3,
-    angleWithin: null,
-    speed: null,
-    pause: null,
-    depth: null,
-    seconds: 60,
     blind: false,
+    goals: { stay: 2, entries: 3, time_limit: 60 },
   };
 }
 
 export const round = (mm: number): number => Math.round(mm * 10) / 10;
 
 /** The tables of an exercise file. Without a goal that asks for a stay, the draft asks to reach the space. */
-export function tablesOf(draft: Draft, scene: SceneOutline): Record<string, unknown> {
+export function tablesOf(draft: Draft, scene: SceneOutline, fields: readonly GoalField[]): Record<string, unknown> {
   const whole = draft.wholeTip ? { whole_tip: true } : {};
-  const goals: Record<string, unknown>[] = [];
-  if (draft.stay === null) goals.push({ kind: "reach", ...whole });
-  else goals.push({ kind: "stay", seconds: draft.stay, ...whole });
-  if (draft.stopWithin !== null)
-    goals.push({ kind: "stop_after_pop", membrane: draft.behind, within_mm: draft.stopWithin });
-  if (draft.push !== null) goals.push({ kind: "feel_plunger", at_least_N: draft.push });
-  if (draft.inject !== null) goals.push({ kind: "stop_plunger", within_mL: draft.inject });
-  if (draft.neverPass) goals.push({ kind: "never_pass", membrane: draft.neverPass });
-  if (draft.peakForce !== null) goals.push({ kind: "peak_force", at_most_N: draft.peakForce });
-  if (draft.entries !== null) goals.push({ kind: "entries", at_most: draft.entries });
-  if (draft.angleWithin !== null) goals.push({ kind: "entry_angle", within_deg: draft.angleWithin });
-  if (draft.speed !== null) goals.push({ kind: "speed", at_most_mm_per_s: draft.speed });
-  if (draft.pause !== null) goals.push({ kind: "no_pause", seconds: draft.pause });
-  if (draft.depth !== null) goals.push({ kind: "depth", at_most_mm: draft.depth });
-  if (draft.seconds !== null) goals.push({ kind: "time_limit", seconds: draft.seconds });
+  const goals: Record<string, unknown>[] = "stay" in draft.goals ? [] : [{ kind: "reach", ...whole }];
+  for (const { kind, key, atSpace } of fields) {
+    if (!(kind in draft.goals)) continue;
+    const more = { ...(atSpace && { membrane: draft.behind }), ...(kind === "stay" && whole) };
+    goals.push({ kind, [key]: draft.goals[kind], ...more });
+  }
   return {
     title: draft.title,
     description: draft.instruction,
@@ -127,16 +83,14 @@ function startOf(draft: Draft, { membranes }: SceneOutline): number[] {
 }
 
 /** The field of the form to which a problem of the file belongs; "" for the whole form. */
-export function fieldOf(path: string, tables: Record<string, unknown>): keyof Draft | "" {
+export function fieldOf(path: string, tables: Record<string, unknown>): FieldName | "" {
   const goal = /^goal\[(\d+)\]/.exec(path);
-  if (goal) {
-    const kind = (tables.goal as { kind: string }[])[Number(goal[1])]?.kind ?? "";
-    return GOALS[kind] ?? "";
-  }
-  return FIELDS[path] ?? "";
+  if (!goal) return FIELDS[path] ?? "";
+  const kind = (tables.goal as { kind: string }[])[Number(goal[1])]?.kind ?? "";
+  return kind === "reach" ? "wholeTip" : `goal.${kind}`;
 }
 
-const FIELDS: Readonly<Record<string, keyof Draft>> = {
+const FIELDS: Readonly<Record<string, FieldName>> = {
   title: "title",
   instruction: "instruction",
   description: "instruction",
@@ -147,21 +101,6 @@ const FIELDS: Readonly<Record<string, keyof Draft>> = {
   "space.deepest_mm": "to",
   "start.angle_deg": "angle",
   "start.position_mm": "angle",
-};
-const GOALS: Readonly<Record<string, keyof Draft>> = {
-  reach: "wholeTip",
-  stay: "stay",
-  stop_after_pop: "stopWithin",
-  feel_plunger: "push",
-  stop_plunger: "inject",
-  never_pass: "neverPass",
-  peak_force: "peakForce",
-  entries: "entries",
-  entry_angle: "angleWithin",
-  speed: "speed",
-  no_pause: "pause",
-  depth: "depth",
-  time_limit: "seconds",
 };
 
 /** A file name made from a title: lower case letters of any script, digits and hyphens; "exercise" without any. */

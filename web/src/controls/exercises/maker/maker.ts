@@ -1,8 +1,10 @@
 import { element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
+import type { SceneOutline } from "../../../wire/messages.ts";
 import { sentence } from "../../editor/problems.ts";
 import type { Person } from "../person.ts";
-import { type Draft, draftOf, fieldOf, nameOf, type SceneOutline, tablesOf } from "./draft.ts";
+import { type Draft, draftOf, type FieldName, fieldOf, nameOf, tablesOf } from "./draft.ts";
+import { type ExerciseSchema, type GoalField, goalFields } from "./goals.ts";
 import { DepthStrip } from "./strip.ts";
 
 const WAIT_MS = 300; // after the last change, before the server checks
@@ -10,16 +12,18 @@ const WAIT_MS = 300; // after the last change, before the server checks
 /** A form for an exercise: goals on a picture of the depths and in fields. `changed` is called after saving. */
 export function exerciseMaker(app: App, person: Person, changed: () => Promise<void>): HTMLElement {
   let scenes: readonly SceneOutline[] = [];
+  let fields: readonly GoalField[] = [];
   let draft: Draft | null = null;
   let toml = "";
   const form = element("div", { class: "maker-form" });
   const note = element("p", { class: "maker-note", role: "status" });
   const strip = new DepthStrip((edge, mm) => change({ [edge]: mm }));
   const root = element("details", { class: "maker" }, element("summary", {}, "Make an exercise"), form, note);
-  const places = new Map<keyof Draft, HTMLElement>();
+  const places = new Map<FieldName, HTMLElement>();
   const updates: (() => void)[] = [];
   const scene = (): SceneOutline => scenes.find(({ name }) => name === draft?.scene) ?? scenes[0]!;
 
+  const tables = () => tablesOf(draft!, scene(), fields);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const change = (part: Partial<Draft>): void => {
     if (!draft) return;
@@ -36,7 +40,7 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   const complain = (problems: readonly { path: string; value: string; reason: string }[]): void => {
     for (const place of places.values()) place.textContent = "";
     const left = problems.filter((problem) => {
-      const field = fieldOf(problem.path, tablesOf(draft!, scene()));
+      const field = fieldOf(problem.path, tables());
       const place = field && places.get(field);
       if (place) place.textContent = `${place.textContent} ${problem.reason}`.trim();
       return !place;
@@ -51,20 +55,20 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     return reply.ok;
   };
   const check = async (): Promise<boolean> => {
-    const reply = await app.ask({ do: "check_exercise", tables: tablesOf(draft!, scene()) });
+    const reply = await app.ask({ do: "check_exercise", tables: tables() });
     toml = String(reply?.data.toml ?? "");
     return tell(reply, "");
   };
   const attempt = async (): Promise<void> => {
     const who = { person: person.name.value, group: person.group.value };
     clearTimeout(timer); // a check would clear what the reply says
-    const reply = await app.ask({ do: "try_exercise", tables: tablesOf(draft!, scene()), ...who });
+    const reply = await app.ask({ do: "try_exercise", tables: tables(), ...who });
     if (tell(reply, "It runs now.")) await changed();
   };
   const save = async (): Promise<void> => {
     clearTimeout(timer);
     const name = nameOf(draft!.title);
-    const ask = { do: "save_exercise", name, tables: tablesOf(draft!, scene()) } as const;
+    const ask = { do: "save_exercise", name, tables: tables() } as const;
     const reply = await app.ask({ ...ask, replace: replace.checked });
     if (tell(reply, "")) await changed();
   };
@@ -77,7 +81,7 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   };
   const replace = element("input", { type: "checkbox", id: "maker-replace" });
 
-  const row = (key: keyof Draft, label: string, box: HTMLInputElement | HTMLSelectElement): HTMLElement => {
+  const row = (key: FieldName, label: string, box: HTMLInputElement | HTMLSelectElement): HTMLElement => {
     box.id = `maker-${key}`;
     const problem = element("p", { class: "error", role: "alert", id: `maker-${key}-problem` });
     box.setAttribute("aria-describedby", problem.id);
@@ -92,30 +96,56 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     });
     return row(key, label, box);
   };
-  const number = (key: "from" | "angle" | "to" | Optional, label: string, optional: boolean): HTMLElement => {
-    const box = element("input", {
-      type: "number",
-      class: "words",
-      step: "any",
-      placeholder: optional ? "not asked" : "",
-    });
+  const number = (
+    key: FieldName,
+    label: string,
+    optional: boolean,
+    now: () => number | null,
+    act: (value: number | null) => void,
+  ): HTMLElement => {
+    const placeholder = optional ? "not asked" : "";
+    const box = element("input", { type: "number", class: "words", step: "any", placeholder });
     box.addEventListener("change", () => {
       const value = box.value === "" ? null : Number(box.value);
-      if (value !== null || optional) change({ [key]: value });
+      if (value !== null || optional) act(value);
       else show();
     });
     updates.push(() => {
-      box.value = draft![key] === null ? "" : String(draft![key]);
+      box.value = String(now() ?? "");
     });
     return row(key, label, box);
   };
-  const choice = (key: "scene" | "behind" | "neverPass", label: string, options: [string, string][]): HTMLElement => {
+  const place = (key: "from" | "angle" | "to", label: string, optional = false): HTMLElement =>
+    number(
+      key,
+      label,
+      optional,
+      () => draft![key],
+      (value) => change({ [key]: value }),
+    );
+  const choice = (
+    key: FieldName,
+    label: string,
+    options: [string, string][],
+    now: () => string,
+    act: (value: string) => void,
+  ): HTMLElement => {
     const box = element("select", {}, ...options.map(([value, text]) => element("option", { value }, text)));
-    box.addEventListener("change", () => change({ [key]: box.value }));
+    box.addEventListener("change", () => act(box.value));
     updates.push(() => {
-      box.value = draft![key];
+      box.value = now();
     });
     return row(key, label, box);
+  };
+  /** A field without a value does not ask for its goal. */
+  const goal = ({ kind, label, membrane }: GoalField, membranes: [string, string][]): HTMLElement => {
+    const now = (): number | string | null => draft!.goals[kind] ?? null;
+    const ask = (value: number | string | null): void => {
+      const { [kind]: _, ...others } = draft!.goals;
+      change({ goals: value === null || value === "" ? others : { ...others, [kind]: value } });
+    };
+    if (!membrane) return number(`goal.${kind}`, label, true, () => now() as number | null, ask);
+    return choice(`goal.${kind}`, label, [["", "not asked"], ...membranes], () => String(now() ?? ""), ask);
   };
   const tick = (key: "wholeTip" | "blind", label: string): HTMLElement => {
     const box = element("input", { type: "checkbox" });
@@ -139,30 +169,23 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
         "scene",
         "Scene",
         scenes.map(({ name, title }) => [name, title]),
+        () => draft!.scene,
+        (name) => change({ scene: name }),
       ),
-      choice("behind", "Goal behind the membrane", membranes),
+      choice(
+        "behind",
+        "Goal behind the membrane",
+        membranes,
+        () => draft!.behind,
+        (behind) => change({ behind }),
+      ),
       strip.root,
-      number("from", "Upper edge, mm behind its far face", false),
-      number("to", "Lower edge, mm behind its far face", true),
+      place("from", "Upper edge, mm behind its far face"),
+      place("to", "Lower edge, mm behind its far face", true),
       words("space", "Name of the goal"),
       tick("wholeTip", "Whole tip in the goal, not only the point"),
-      number("stay", "Stay in the goal, s", true),
-      number("stopWithin", "After the pop, move on at most, mm", true),
-      ...(scene().syringe
-        ? [
-            number("push", "Push the plunger until it gives way, N at least", true),
-            number("inject", "In the 1 s after it, inject at most, mL", true),
-          ]
-        : []),
-      choice("neverPass", "Never pass the membrane", [["", "not asked"], ...membranes]),
-      number("peakForce", "Force at most, N", true),
-      number("entries", "Entries into the tissue, at most", true),
-      number("seconds", "Time limit, s", true),
-      number("angle", "Needle to skin, degrees", false),
-      number("angleWithin", "Enter at this angle, within degrees", true),
-      number("speed", "Push in with at most, mm/s", true),
-      number("pause", "Never stand still on the way for, s", true),
-      number("depth", "Point behind the membrane at most, mm", true),
+      place("angle", "Needle to skin, degrees"),
+      ...fields.filter(({ needsSyringe }) => scene().syringe || !needsSyringe).map((field) => goal(field, membranes)),
       tick("blind", "Blind: hide needle and depth"),
       element(
         "div",
@@ -183,8 +206,9 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     if (!root.open || draft) return;
     try {
       scenes = await app.api.json<SceneOutline[]>("/api/scenes");
+      fields = goalFields(await app.api.json<ExerciseSchema>("/api/exercise-schema"));
     } catch (error) {
-      note.textContent = `Cannot load the scenes: ${error instanceof Error ? error.message : String(error)}`;
+      note.textContent = `Cannot load the form: ${error instanceof Error ? error.message : String(error)}`;
       return;
     }
     draft = draftOf(scenes.find(({ title }) => title === app.live.scene.value?.name) ?? scenes[0]!);
@@ -194,16 +218,3 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   });
   return root;
 }
-
-type Optional =
-  | "stay"
-  | "stopWithin"
-  | "push"
-  | "inject"
-  | "peakForce"
-  | "entries"
-  | "angleWithin"
-  | "speed"
-  | "pause"
-  | "depth"
-  | "seconds";

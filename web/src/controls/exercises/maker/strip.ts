@@ -1,7 +1,8 @@
 import { element } from "../../../panel.ts";
+import type { SceneOutline } from "../../../wire/messages.ts";
 import { svg } from "../../svg.ts";
 import { layersOf } from "../trace.ts";
-import { type Draft, round, type SceneOutline } from "./draft.ts";
+import { type Draft, round } from "./draft.ts";
 
 const WIDTH = 300;
 const HEIGHT = 260;

@@ -1,11 +1,7 @@
 import { expect, test } from "vitest";
-import {
-  draftOf,
-  fieldOf,
-  nameOf,
-  type SceneOutline,
-  tablesOf,
-} from "../../../../src/controls/exercises/maker/draft.ts";
+import { type Draft, draftOf, fieldOf, nameOf, tablesOf } from "../../../../src/controls/exercises/maker/draft.ts";
+import { goalFields } from "../../../../src/controls/exercises/maker/goals.ts";
+import type { SceneOutline } from "../../../../src/wire/messages.ts";
 
 const membrane = (name: string, depth: number, thickness: number) => ({
   name,
@@ -23,59 +19,65 @@ const SCENE = {
   membranes: [membrane("skin", 0, 1.2e-3), membrane("front", 4.81e-3, 0.4e-3), membrane("back", 8.22e-3, 0.4e-3)],
 } as unknown as SceneOutline;
 
+const table = (kind: string, properties: Record<string, object>, syringe = false) => ({
+  properties: { kind: { const: kind }, ...properties },
+  "x-syringe": syringe,
+});
+const whole_tip = { type: "boolean" };
+const FIELDS = goalFields({
+  properties: { goal: { items: { oneOf: ["A", "B", "C", "D", "E"].map((name) => ({ $ref: `#/$defs/${name}` })) } } },
+  $defs: {
+    A: table("reach", { whole_tip }),
+    B: table("stay", { seconds: { type: "number", "x-label": "Stay, s" }, whole_tip }),
+    C: table("never_pass", { membrane: { type: "string", "x-label": "Never pass" }, whole_tip }),
+    D: table("stop_after_pop", { membrane: { type: "string" }, within_mm: { anyOf: [], "x-label": "Stop, mm" } }),
+    E: table("feel_plunger", { at_least_N: { type: "number", "x-label": "Push, N" } }, true),
+  },
+});
+const made = (draft: Partial<Draft>) => tablesOf({ ...draftOf(SCENE), ...draft }, SCENE, FIELDS);
+
+test("each goal whose schema has a label has a field, and its table has what the schema wants", () => {
+  expect(FIELDS.map(({ kind, label, membrane, needsSyringe }) => [kind, label, membrane, needsSyringe])).toEqual([
+    ["stay", "Stay, s", false, false],
+    ["never_pass", "Never pass", true, false],
+    ["stop_after_pop", "Stop, mm", false, false],
+    ["feel_plunger", "Push, N", false, true],
+  ]);
+  const tables = made({ goals: { stay: 2, feel_plunger: 1.5 }, wholeTip: true });
+  expect(tables.goal).toEqual([
+    { kind: "stay", seconds: 2, whole_tip: true },
+    { kind: "feel_plunger", at_least_N: 1.5 },
+  ]);
+  expect(fieldOf("goal[1].at_least_N", tables)).toBe("goal.feel_plunger");
+});
+
 test("a new exercise asks for the space between the last two membranes", () => {
   const draft = draftOf(SCENE);
   expect([draft.behind, draft.from, draft.to]).toEqual(["front", 0, 3]);
 });
 
 test("the tables have only the goals that are asked for", () => {
-  const draft = { ...draftOf(SCENE), stay: null, stopWithin: 2.5, entries: null, seconds: null, neverPass: "back" };
-  expect(tablesOf(draft, SCENE)).toMatchObject({
+  expect(made({ goals: { stop_after_pop: 2.5, never_pass: "back" } })).toMatchObject({
     scene: "venipuncture",
     space: { behind: "front", depth_mm: 0, deepest_mm: 3 },
     goal: [
       { kind: "reach" },
-      { kind: "stop_after_pop", membrane: "front", within_mm: 2.5 },
       { kind: "never_pass", membrane: "back" },
+      { kind: "stop_after_pop", membrane: "front", within_mm: 2.5 },
     ],
   });
 });
 
-test("the plunger's goals have their own fields", () => {
-  const tables = tablesOf({ ...draftOf(SCENE), stay: null, entries: null, seconds: null, push: 2, inject: 1.5 }, SCENE);
-  expect(tables.goal).toEqual([
-    { kind: "reach" },
-    { kind: "feel_plunger", at_least_N: 2 },
-    { kind: "stop_plunger", within_mL: 1.5 },
-  ]);
-  expect(fieldOf("goal[1].at_least_N", tables)).toBe("push");
-  expect(fieldOf("goal[2].within_mL", tables)).toBe("inject");
-});
-
-test("how the needle is moved has its own fields", () => {
-  const asked = { angleWithin: 5, speed: 30, pause: 1, depth: 12 };
-  const tables = tablesOf({ ...draftOf(SCENE), stay: null, entries: null, seconds: null, ...asked }, SCENE);
-  expect(tables.goal).toEqual([
-    { kind: "reach" },
-    { kind: "entry_angle", within_deg: 5 },
-    { kind: "speed", at_most_mm_per_s: 30 },
-    { kind: "no_pause", seconds: 1 },
-    { kind: "depth", at_most_mm: 12 },
-  ]);
-  expect([1, 2, 3, 4].map((i) => fieldOf(`goal[${i}].any`, tables))).toEqual(Object.keys(asked));
-});
-
 test("a slanted needle starts where it points at the middle of the goal", () => {
-  const start = (angle: number) =>
-    (tablesOf({ ...draftOf(SCENE), angle }, SCENE) as { start: { position_mm: number[] } }).start.position_mm;
+  const start = (angle: number) => (made({ angle }) as { start: { position_mm: number[] } }).start.position_mm;
   expect(start(90)).toEqual([0, 5, 0]);
   expect(start(45)).toEqual([-11.7, 5, 0]); // 5 mm above the skin, 6.71 mm below it
 });
 
 test("a problem of the file is shown at its field", () => {
-  const tables = tablesOf(draftOf(SCENE), SCENE);
-  expect(fieldOf("goal[0].seconds", tables)).toBe("stay");
-  expect(fieldOf("goal[1].at_most", tables)).toBe("entries");
+  const tables = made({});
+  expect(fieldOf("goal[0].seconds", tables)).toBe("goal.stay");
+  expect(fieldOf("goal[0].whole_tip", made({ goals: {} }))).toBe("wholeTip");
   expect(fieldOf("space.deepest_mm", tables)).toBe("to");
   expect(fieldOf("space.press_mm", tables)).toBe("");
 });
