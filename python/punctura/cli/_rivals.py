@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
-from punctura._core import Rival
+from punctura._core import Rival, rival_kinds
 
 
 def rivals_of(given: str) -> list[Rival]:
     """A rival by name, with its default numbers, or those of a file of `punctura rivals --out`.
 
-    Raises ConfigurationError or PuncturaError.
+    Raises ConfigurationError.
     """
-    from punctura.rivals import kinds, load_layers
+    names = {kind["name"] for kind in rival_kinds()}
+    if given in names or not (Path(given).exists() or re.search(r"[./\\]", given)):
+        return [Rival(given)]  # needs no package that reads files
+    from punctura.rivals import load_layers
 
-    if given in kinds() or not Path(given).exists():
-        return [Rival(given)]
     return [layer.rival for layer in load_layers(given)]

@@ -12,6 +12,7 @@ import typer
 from punctura.cli import _trace
 from punctura.cli._out import check_apart, check_place
 from punctura.cli._status import FAILED
+from punctura.extras import optional
 
 
 def command(
@@ -36,6 +37,7 @@ def command(
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON, in SI units.")] = False,
 ) -> None:
     """Measures peak, gradient, pops and work of a trace. It needs no model."""
+    optional("pyarrow", "files", "punctura measure")
     from punctura.files.names import traces_in
     from punctura.ticks.files import SUFFIXES, save
     from punctura.trace.bags import is_bag

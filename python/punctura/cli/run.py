@@ -142,7 +142,7 @@ def command(
         (rival, "--rival", "; the page draws the scene's law"),
     )
     for wrong, name, instead in of_the_terminal:
-        if wrong and not headless:
+        if wrong not in (None, False) and not headless:
             raise typer.BadParameter(f"needs --headless{instead}", param_hint=name)
     if record and record.suffix.lower() != ".parquet":
         raise typer.BadParameter("must end in .parquet", param_hint="--record")
@@ -167,7 +167,7 @@ def command(
     second = SecondDevice(second_device) if second_device else None
     if second and second_direction is not None:
         second = second._replace(direction=_direction(second_direction))
-    rivals = rivals_of(rival) if rival else []
+    rivals = [] if rival is None else rivals_of(rival)
     wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second, rivals)
     with ends_on_signals() as signals:
         try:

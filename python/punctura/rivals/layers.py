@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura._core import PuncturaError, Rival
+from punctura._core import Rival
+from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_text
 from punctura.files.whole_file import write_whole
 from punctura.rivals.path import Path
@@ -48,13 +49,19 @@ def save_layers(file: str | os.PathLike[str], layers: tuple[Layer, ...]) -> None
 
 
 def load_layers(file: str | os.PathLike[str]) -> tuple[Layer, ...]:
-    """Reads layers from a file of save_layers(). Raises PuncturaError."""
+    """Reads layers from a file of save_layers(). Raises ConfigurationError."""
     try:
         held: Any = json.loads(read_text(FilePath(file), "rival"))
         if not isinstance(held, Mapping) or held.get("format") != FORMAT:
-            raise PuncturaError(f'{file}: is no file of rivals: it must have "format": "{FORMAT}"')
+            raise _wrong(file, f'is no file of punctura rivals --out: it must have "format": "{FORMAT}"')
         return tuple(Layer(float(one["surface_m"]), Rival(one["rival"], one["numbers"])) for one in held["layers"])
+    except ConfigurationError:
+        raise
+    except json.JSONDecodeError as error:
+        raise _wrong(file, f"is no JSON, as punctura rivals --out writes it: {error}") from None
     except (KeyError, TypeError, ValueError, RecursionError) as error:
-        if isinstance(error, PuncturaError):
-            raise
-        raise PuncturaError(f"{file}: is no file of rivals: {error!r}") from None
+        raise _wrong(file, f"each layer needs surface_m, rival and numbers ({error!r})") from None
+
+
+def _wrong(file: str | os.PathLike[str], reason: str) -> ConfigurationError:
+    return ConfigurationError([Problem("", MISSING, reason)], os.fspath(file))

@@ -165,9 +165,16 @@ def test_files_of_layers_are_checked(tmp_path):
     layers = (Layer(1e-3, Rival("dahl")), Layer(3e-3, Rival("okamura", {"linear": 20.0})))
     save_layers(file, layers)
     assert load_layers(file) == layers
-    for text in ('{"format": "other"}', "[" * 100_000):
+    good = json.loads(file.read_text())
+    for text, why in {
+        '{"format": "other"}': "is no file of punctura rivals --out",
+        "x": "is no JSON",
+        "[" * 100_000: "each layer needs",
+        json.dumps(good | {"layers": [{"rival": "dahl"}]}): "each layer needs",
+        json.dumps(good | {"layers": [{"surface_m": 0, "rival": "newton", "numbers": {}}]}): "must be one of",
+    }.items():
         file.write_text(text)
-        with pytest.raises(pn.PuncturaError, match="no file of rivals"):
+        with pytest.raises(pn.ConfigurationError, match=why):
             load_layers(file)
 
 

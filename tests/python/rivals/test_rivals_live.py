@@ -94,7 +94,7 @@ def test_limits_and_the_automatic_scale_act_on_a_rival(tmp_path):
     automatic = SCENE.replace(display=pn.DisplaySettings("automatic"))
     scaled = felt(tmp_path / "b.parquet", [strong], automatic)
     assert scaled.force_scale[0] < 0.1
-    assert overview(open_recording(tmp_path / "b.parquet"))["scene"]["force_scale"] == scaled.force_scale[0]
+    assert overview(open_recording(tmp_path / "b.parquet")).scene.force_scale == scaled.force_scale[0]
     assert replay(tmp_path / "b.parquet").identical
 
 
@@ -120,6 +120,9 @@ def test_the_command_runs_a_rival_by_name_and_from_a_file(punctura, tmp_path):
     ("wrong", "why"),
     [
         (["--headless", "--rival", "newton"], "must be one of"),
+        (["--headless", "--rival", ""], "not a rival file"),
+        (["--headless", "--rival", "fits/dahl.json"], "there is no such file"),
+        (["--headless", "--rival", __file__], "is no JSON, as punctura rivals --out writes it"),
         (["--rival", "dahl"], "needs --headless"),
     ],
 )
