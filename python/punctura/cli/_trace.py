@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -113,21 +114,27 @@ def needle_of(text: str, trace: Path | None = None) -> Needle:
         if trace is not None and trace.is_file() and (recorded := recorded_needle(trace)) is not None:
             return recorded
         raise MissingNeedle
-    values = pairs(text.split(","), "--needle")
-    unknown = set(values) - {"diameter_mm", "tip_angle_deg", "tip_angle_rad"}
-    if unknown or "diameter_mm" not in values or not {"tip_angle_deg", "tip_angle_rad"} & set(values):
-        raise typer.BadParameter("must be diameter_mm=...,tip_angle_deg=... (or tip_angle_rad)", param_hint="--needle")
     try:
-        angle = (
-            float(values["tip_angle_rad"])
-            if "tip_angle_rad" in values
-            else math.radians(float(values["tip_angle_deg"]))
-        )
-        if "tip_angle_rad" not in values and not 0 < angle < math.pi / 2:
-            raise ValueError(f"tip_angle_deg = {values['tip_angle_deg']}: must be between 0 and 90")
-        return Needle(float(values["diameter_mm"]) * 1e-3, angle)
+        values = {name.strip(): float(value) for name, _, value in (part.partition("=") for part in text.split(","))}
+    except ValueError:
+        values = {}
+    angles = values.keys() - {"diameter_mm"}
+    if values.keys() - angles != {"diameter_mm"} or angles not in ({"tip_angle_deg"}, {"tip_angle_rad"}):
+        wanted = "must be diameter_mm=1.2,tip_angle_deg=20 (or tip_angle_rad=0.35), with a decimal point"
+        raise typer.BadParameter(wanted, param_hint="--needle")
+    try:
+        angle = values.get("tip_angle_rad", math.radians(values.get("tip_angle_deg", 0.0)))
+        if "tip_angle_deg" in values and not 0 < angle < math.pi / 2:
+            raise ValueError(f"tip_angle_deg = {values['tip_angle_deg']:g}: must be between 0 and 90")
+        with warnings.catch_warnings(record=True) as unusual:  # its text is about SI units
+            warnings.simplefilter("always")
+            needle = Needle(values["diameter_mm"] * 1e-3, angle)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--needle") from None
+    if unusual:
+        size = f"{needle.diameter * 1e3:g} mm thick, with a tip of {math.degrees(angle):.3g} degrees"
+        typer.echo(f"punctura: warning: the needle is unusual: {size}. Is that meant?", err=True)
+    return needle
 
 
 def read_with_needle(path: Path, reading: Reading, needle: str, context: typer.Context) -> tuple[Trace, Needle]:

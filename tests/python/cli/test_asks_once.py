@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 import typer
+from punctura import Needle
 from punctura.cli._app import build_app
-from punctura.cli._trace import reading_of
+from punctura.cli._trace import needle_of, reading_of
 from traces import trace
 from typer.testing import CliRunner
 
@@ -48,3 +49,21 @@ def test_speeds_are_stated_as_a_list_with_times():
     for wrong in ("fast", "4@1", "4,0@5,1@5", "nan", "4,,1@2"):
         with pytest.raises(typer.BadParameter, match="mm/s, with growing times"):
             speeds(wrong)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    ["diameter_mm=1,2,tip_angle_deg=20", "diameter=1.2", "1.2", "diameter_mm=1.2", "diameter_mm=x,tip_angle_deg=20",
+     "diameter_mm=1.2,tip_angle_deg=20,tip_angle_rad=0.3"],
+)  # fmt: skip
+def test_a_needle_that_is_not_understood_is_shown_how(wrong):
+    with pytest.raises(typer.BadParameter, match=r"must be diameter_mm=1\.2,tip_angle_deg=20 .*decimal point"):
+        needle_of(wrong)
+
+
+def test_a_needle_of_a_wrong_unit_is_told_in_the_units_of_the_option(capsys):
+    assert needle_of("diameter_mm=1.2, tip_angle_deg=20") == Needle(1.2e-3, np.radians(20))
+    assert capsys.readouterr().err == ""
+    needle_of("diameter_mm=0.0012,tip_angle_rad=0.3")
+    told = capsys.readouterr().err
+    assert "warning: the needle is unusual: 0.0012 mm thick" in told and "SI units" not in told
