@@ -72,4 +72,5 @@ def _asymmetry(
     if abs(ways.difference) < SURE * max(slow, told.blocks.noise):
         return ()
     kind, text = way_out(ways.ratio)
-    return (Cause(kind, 0.0, f"{text}. The model explains it by other means: do not trust its walls"),)
+    hidden = ". The model explains it by other means: do not trust its walls" if told.ok else ""
+    return (Cause(kind, 0.0, text + hidden),)

@@ -25,7 +25,7 @@ class Ways(NamedTuple):
 def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     """The mean force of the shaft on both ways behind the last pop, in the first insertion.
 
-    None if the trace does not show both ways there, or no air. No law is used.
+    None if the trace does not show both ways there, or no air, or if the next wall resists there. No law is used.
     """
     strokes = [stroke for stroke in segments.strokes if stroke.insertion == 0]
     inward = [stroke for stroke in strokes if stroke.kind == "in"]
@@ -40,12 +40,19 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     if air.sum() < FEWEST:
         return None
     force = trace.force - float(np.median(trace.force[air]))
-    there = (trace.depth > begin) & (trace.depth < deep)
     within = np.arange(len(trace))
-    going, coming = force[there & (within < end)], force[there & (within >= end) & (within < last)]
-    if len(going) < FEWEST or len(coming) < FEWEST or not np.mean(going) > 0:
-        return None
-    return Ways(float(-np.mean(coming) / np.mean(going)), float(np.mean(going) + np.mean(coming)))
+    halves = []
+    for low, high in ((begin, 0.5 * (begin + deep)), (0.5 * (begin + deep), deep)):
+        there = (trace.depth > low) & (trace.depth < high)
+        going, coming = force[there & (within < end)], force[there & (within >= end) & (within < last)]
+        if 2 * min(len(going), len(coming)) < FEWEST or not np.mean(going) > 0:
+            return None
+        halves.append((float(np.mean(going)), float(-np.mean(coming))))
+    ratios = [out / inside for inside, out in halves]
+    if abs(ratios[0] - ratios[1]) > 0.5 * max(abs(ratios[0] - 1), abs(ratios[1] - 1), UNEVEN):
+        return None  # it grows with the depth, as where the next wall resists on the way in
+    going_in, coming_out = np.mean(halves, axis=0)
+    return Ways(float(coming_out / going_in), float(going_in - coming_out))
 
 
 def way_out(ratio: float) -> tuple[str, str]:

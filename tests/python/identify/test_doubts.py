@@ -81,6 +81,8 @@ def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
     named = next(cause for cause in told.causes if cause.kind == kind)
     assert words in named.text and "To tell: " in named.text and named.share > 0.6
     assert told.explained.runs < 0.7 * told.explained.runs_of_noise
+    uneven = {cause.kind for cause in told.causes} & {"barbs", "asymmetric_way_out"}
+    assert uneven == {kind} & {"barbs", "asymmetric_way_out"}  # a wall that resists on the way in alone is none
 
 
 def test_noise_of_the_depth_is_named_and_not_a_wall():
