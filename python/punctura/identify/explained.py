@@ -20,7 +20,7 @@ MEDIAN = np.pi / 2  # the variance of a median of n samples of noise, in those o
 SURE = 4.0  # standard deviations of chance
 MATTERS = 0.01  # of the greatest force: less is no misfit that a reader needs to know
 CLEAR = 0.5  # of the noise from sample to sample: less does not show in the trace
-MOST_PLACES = 3
+NAMED = 3  # places in a sentence
 
 
 @dataclass(frozen=True)
@@ -81,10 +81,12 @@ class Explained:
         if self.ok:
             return ""
         beside = f"beside a noise of {self.noise:.2g} N " + ("in air" if self.air else "from sample to sample")
+        more = f"; and {len(self.places) - NAMED} smaller places" if len(self.places) > NAMED else ""
         return (
             f"The model does not explain the trace: {self.left:.2g} N are left, {100 * self.left / self.peak:.2g} % of "
             f"the greatest force, {beside}. The residuals have {self.runs} runs of one sign, and noise would have "
-            f"{self.runs_of_noise:.0f}. Not explained: {'; '.join(map(str, self.places))}. The intervals do not hold."
+            f"{self.runs_of_noise:.0f}. Not explained: {'; '.join(map(str, self.places[:NAMED]))}{more}. The intervals "
+            "do not hold."
         )
 
 
@@ -105,7 +107,7 @@ def explained(trace: Trace, segments: Segments, fit: Fit) -> Explained:
     return Explained(
         noise, len(calm) >= SHORTEST, left, peak, 1 + int(np.sum(signs[1:] != signs[:-1])),
         1 + 2 * up * (n - up) / n, effective_samples(residuals, len(fit.u)), len(trace),
-        tuple(_places(trace, segments, blocks, peak))[:MOST_PLACES] if sure and clear else (), blocks,
+        tuple(_places(trace, segments, blocks, peak)) if sure and clear else (), blocks,
     )  # fmt: skip
 
 

@@ -1,0 +1,195 @@
+"""Draws the pictures of docs/your-trace.md, from traces that the model makes and that are then changed.
+
+    python tools/your_trace_pictures.py [--out docs/images]
+
+Prints what `identify` would say of each fit. Takes some seconds.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import punctura as pn
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from punctura._core import TraceModel
+from punctura.identify.doubts import doubts
+from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.model import Model
+from punctura.identify.parameters import Parameters, default_coupling, default_membrane
+from punctura.rivals.hold_out import second_insertion
+from punctura.trace import Trace, segment
+from punctura.trace.numbers import numbers_of
+from validation_pictures import COLOURS, save
+
+Array = NDArray[np.float64]
+NEEDLE = pn.Needle(diameter=1.2e-3, tip_angle=0.4)
+WALL = {"surface": 5e-3, "stiffness": 600, "precompression": 0.3, "friction": 0.2, "thickness": 0.5e-3}
+RATE, NOISE = 100.0, 8e-3  # Hz, N
+
+
+def truth() -> Parameters:
+    row = default_membrane()
+    row[:5] = list(WALL.values())
+    return Parameters(NEEDLE, np.array([row]), default_coupling(4000.0))
+
+
+def motion(speeds: tuple[float, ...] = (5e-3,), hold: float = 1.0) -> tuple[Array, Array]:
+    """Time (s) and depth (m): to 15 mm and back, once at each speed."""
+    ways = [np.arange(0, 15e-3, speed / RATE) for speed in speeds]
+    rest = np.full(int(hold * RATE), 15e-3)
+    depth = np.concatenate([part for way in ways for part in (way, rest, way[::-1])])
+    return np.arange(len(depth)) / RATE, depth
+
+
+def law(time: Array, depth: Array) -> Array:
+    """The force of one wall of K06 (n,), N."""
+    p = truth()
+    return np.asarray(TraceModel(NEEDLE, depth, time).forces(p.membranes, p.coupling, False)[0])
+
+
+def noisy(time: Array, depth: Array, force: Array) -> Trace:
+    return Trace(depth, force + NOISE * np.random.default_rng(1).normal(size=len(depth)), time)
+
+
+def fitted(trace: Trace) -> Fit:
+    """K06 with one wall and without extensions."""
+    return fit(Misfit(trace, truth()), Model(1).names, truth())
+
+
+def draw_fit(axes: Axes, below: Axes, trace: Trace) -> None:
+    """The trace, the fit and what is left, with the places that are not explained."""
+    found = fitted(trace)
+    told = doubts(trace, segment(trace), found, ())
+    model = trace.force + found.residuals
+    axes.plot(1e3 * trace.depth, trace.force, color=COLOURS["pale"], lw=0.8, label="trace")
+    axes.plot(1e3 * trace.depth, model, color=COLOURS["good"], lw=1.1, label="K06, one wall")
+    below.plot(1e3 * trace.depth, 1e3 * (trace.force - model), color=COLOURS["bad"], lw=0.6)
+    for place in told.explained.places:
+        for each in (axes, below):
+            each.axvspan(1e3 * place.shallow, 1e3 * place.deep, color="#f3d9a4", lw=0, zorder=0)
+    axes.set(ylabel="force, N")
+    axes.tick_params(labelbottom=False)
+    axes.legend(fontsize=8, frameon=False)
+    below.axhline(0, color="black", lw=0.5)
+    below.set(xlabel="depth, mm", ylabel="left, mN")
+    print(*(told.sentences or ("The trace is explained.",)), sep="\n")
+
+
+def pulled(ratio: float) -> Trace:
+    time, depth = motion()
+    force = law(time, depth)
+    return noisy(time, depth, np.where(force < 0, ratio * force, force))
+
+
+def rate() -> Trace:
+    time, depth = motion((2e-3, 16e-3), hold=0.0)
+    speed = np.abs(np.gradient(depth, time))
+    return noisy(time, depth, law(time, depth) * (speed / 5e-3 + 1e-3) ** 0.15)
+
+
+def ripple() -> Trace:
+    time, depth = motion()
+    return noisy(time, depth, law(time, depth) * (1 + 0.12 * np.sin(2 * np.pi * depth / 1.5e-3)))
+
+
+def wall() -> Trace:
+    time, depth = motion()
+    going_in = np.gradient(depth) >= 0
+    return noisy(time, depth, law(time, depth) + 0.15 * going_in * np.clip((depth - 9e-3) / 2e-3, 0, 1))
+
+
+def shaken() -> Trace:
+    time, depth = motion()
+    measured = depth + 10e-6 * np.random.default_rng(2).normal(size=len(depth))
+    return noisy(time, measured, law(time, depth))
+
+
+def plain() -> Trace:
+    time, depth = motion()
+    return noisy(time, depth, law(time, depth))
+
+
+FITS: dict[str, Callable[[], Trace]] = {
+    "explained": plain, "barbs": lambda: pulled(2.2), "weak": lambda: pulled(0.5), "rate": rate, "ripple": ripple,
+    "wall": wall, "depth-noise": shaken,
+}  # fmt: skip
+
+
+def numbers(axes: Axes) -> None:
+    """The numbers of `punctura measure` on a trace."""
+    trace = plain()
+    (told,) = numbers_of(trace)
+    pop = told.pops[0]
+    assert told.contact_m is not None and told.gradient_N_per_m is not None and told.withdrawal_N is not None
+    depth, force = 1e3 * trace.depth, trace.force - told.zero_N
+    end = int(np.argmax(trace.depth))
+    inside = slice(int(np.argmax(trace.depth >= told.contact_m)), end)
+    axes.fill_between(depth[inside], 0, force[inside], color="#e4ecf5", lw=0)
+    axes.plot(depth, force, color=COLOURS["pale"], lw=0.9)
+    middle = (0.5 * (1e3 * told.contact_m + 1e3 * told.peak_depth_m), 0.5 * told.peak_N)
+    run = np.array([-1.0, 1.0])
+    axes.plot(middle[0] + run, middle[1] + run * told.gradient_N_per_m * 1e-3, color=COLOURS["good"], lw=2)
+    axes.plot(1e3 * told.peak_depth_m, told.peak_N, "o", color=COLOURS["bad"], ms=4)
+    fall = 1e3 * (pop.depth_m + pop.width_m) + 0.25
+    axes.annotate("", (fall, pop.peak_N - pop.drop_N), (fall, pop.peak_N), arrowprops={"arrowstyle": "<->", "lw": 0.8})
+    for text, place in (
+        (f"contact {1e3 * told.contact_m:.2f} mm", (2.4, 0.06)),
+        (f"gradient {1e-3 * told.gradient_N_per_m:.2f} N/mm", (2.1, 0.55)),
+        (f"peak {told.peak_N:.2f} N at {1e3 * told.peak_depth_m:.2f} mm", (4.2, 0.9)),
+        (f"drop {pop.drop_N:.2f} N", (fall + 0.2, 0.62)),
+        (f"work {1e3 * told.work_J:.2f} mJ", (10, 0.18)),
+        (f"final {told.final_N:.2f} N", (13, 0.48)),
+        (f"withdrawal {told.withdrawal_N:.2f} N", (8.8, -0.34)),
+    ):
+        axes.text(*place, text, fontsize=8)
+    axes.axhline(0, color="black", lw=0.5)
+    axes.set(xlabel="depth, mm", ylabel="force, N", ylim=(-0.5, 1.0))
+
+
+def prediction(axes: Axes) -> None:
+    """A second insertion that resists less than the first one, and what was predicted for it."""
+    time, depth = motion((5e-3, 5e-3), hold=0.2)
+    force = law(time, depth)
+    later = np.arange(len(depth)) >= len(depth) // 2
+    trace = noisy(time, depth, np.where(later, 0.75 * force, force))
+    told = {one.name: one for one in second_insertion(trace, NEEDLE, 1)}
+    second = trace.strokes == 1
+    where = 1e3 * trace.depth[second]
+    axes.plot(1e3 * trace.depth[~second], trace.force[~second], color="#d8d8d8", lw=0.8, label="first insertion")
+    axes.plot(where, trace.force[second], color=COLOURS["pale"], lw=0.8, label="second insertion, not seen by the fit")
+    for name, colour in (("k06", COLOURS["good"]), ("exponential", COLOURS["bad"])):
+        one = told[name]
+        label = f"{one.title}: error {1e3 * one.rmse:.0f} mN"
+        axes.plot(where, one.force, color=colour, lw=1.1, label=label)
+    axes.set(xlabel="depth, mm", ylabel="force, N", ylim=(-0.6, 1.7))
+    axes.legend(fontsize=7, frameon=False, loc="upper left")
+    for one in told.values():
+        print(f"{one.title}: {one.rmse:.4f} N, {100 * one.rmse_share:.1f} %")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path("docs/images"))
+    out = parser.parse_args().out
+    mpl.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "punctura", "font.size": 9, "axes.spines.top": False,
+                         "axes.spines.right": False})  # fmt: skip
+    grid = {"left": 0.1, "right": 0.98, "top": 0.98}
+    for name, draw in (("numbers", numbers), ("prediction", prediction)):
+        figure = Figure(figsize=(6.8, 2.8))
+        draw(figure.subplots(gridspec_kw=grid | {"bottom": 0.17}))
+        save(figure, out / f"your-trace-{name}.svg")
+    for name, make in FITS.items():
+        figure = Figure(figsize=(6.8, 3.0))
+        two = {"height_ratios": [2, 1], "bottom": 0.15, "hspace": 0.12}
+        draw_fit(*figure.subplots(2, 1, sharex=True, gridspec_kw=grid | two), make())
+        save(figure, out / f"your-trace-{name}.svg")
+
+
+if __name__ == "__main__":
+    main()
