@@ -84,6 +84,7 @@ class SceneLanes {
         limiter_({}, V(1)),
         states_(block.membranes.size()),
         ticks_(block.membranes.size()) {
+    params_.reserve(states_.size());
     restart(Truth(true));
   }
 
@@ -109,6 +110,10 @@ class SceneLanes {
     strange_ = (strange_ && !lanes) || number(block_.tip_steps) > 1;
     active_ = active_ && !lanes;
     for (State& state : states_) restart(state, lanes);
+    params_.clear();
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      params_.push_back({Law(block_, i, start_), at<V>(block_.membranes[i].point, start_),
+                         at<V>(block_.membranes[i].normal, start_), coupling()});
   }
 
   /// One tick. k: of SceneBlock::inputs.
@@ -126,9 +131,8 @@ class SceneLanes {
 
     const Vector before = conditioned_, tip = condition(measured), axis = direction(tip, inputs.axis);
     conditioned_ = tip;
-    const Coupling coupling = coupling_now();
-    if (block_.sub_steps > 1 && !all(first)) step_between(coupling, select(first, tip, before), axis);
-    advance_proxies(coupling, tip, axis);
+    if (block_.sub_steps > 1 && !all(first)) step_between(select(first, tip, before), axis);
+    advance_proxies(tip, axis);
     model_force_ = {};
     Truth outside(true);
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -181,10 +185,10 @@ class SceneLanes {
 
   /// The sub-steps of a tick without the last one, as ConditionedProxies makes them. before: of the last tick, m; in a
   /// first tick the tip, where a sub-step changes nothing.
-  void step_between(const Coupling& coupling, const Vector& before, const Vector& axis) noexcept {
+  void step_between(const Vector& before, const Vector& axis) noexcept {
     for (std::uint32_t s = 1; s < block_.sub_steps; ++s) {
       const V share(static_cast<double>(s) / static_cast<double>(block_.sub_steps));
-      advance_proxies(coupling, before + share * (conditioned_ - before), axis);
+      advance_proxies(before + share * (conditioned_ - before), axis);
     }
   }
 
@@ -209,7 +213,7 @@ class SceneLanes {
     return {V::load(numbers[0]), V::load(numbers[1]), V::load(numbers[2])};
   }
 
-  Coupling coupling_now() const noexcept {
+  Coupling coupling() const noexcept {
     const CouplingBlock& c = block_.coupling;
     typename Coupling::Constants now{at<V>(c.K, start_), at<V>(c.g, start_), at<V>(c.inv_g, start_),
                                      at<V>(c.free_share, start_)};
@@ -218,13 +222,8 @@ class SceneLanes {
     return Coupling(now);
   }
   /// One step of all proxies, to this position (m).
-  void advance_proxies(const Coupling& coupling, const Vector& position, const Vector& axis) noexcept {
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      const MembraneBlock& membrane = block_.membranes[i];
-      const Params params{Law(block_, i, start_), at<V>(membrane.point, start_), at<V>(membrane.normal, start_),
-                          coupling};
-      ticks_[i] = Solver::step(params, states_[i], position, axis);
-    }
+  void advance_proxies(const Vector& position, const Vector& axis) noexcept {
+    for (std::size_t i = 0; i < states_.size(); ++i) ticks_[i] = Solver::step(params_[i], states_[i], position, axis);
   }
 
   /// Moves the plant for a period. force: of the device, N.
@@ -247,6 +246,7 @@ class SceneLanes {
   V time_{0};
   BasicInputGate<V> gate_;
   Limiter limiter_;
+  std::vector<Params> params_;
   std::vector<State> states_;
   std::vector<SpaceTick<V>> ticks_;
 };
