@@ -70,13 +70,13 @@ class ConditionedProxies {
     const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
     const bool first = !conditioner_.started();
-    const Vector before = tip_;
-    tip_ = conditioner_.step(position);
-    const Vector direction = from_motion_ ? from_motion_->step(tip_) : axis;
-    if (sub_steps_ > 1 && !first) step_between(before, direction);
-    force_.setZero();
-    for (Proxy& proxy : proxies_) force_ += proxy.step_finite(tip_, direction);
-    return force_;
+    const Vector tip = conditioner_.step(position);
+    const Vector direction = from_motion_ ? from_motion_->step(tip) : axis;
+    if (sub_steps_ > 1 && !first) step_between(tip, direction);
+    tip_ = tip;
+    Vector force;
+    for (Proxy& proxy : proxies_) force += proxy.step_finite(tip, direction);
+    return force_ = force;
   }
 
   static void archive(auto& self, auto& state) {
@@ -126,10 +126,10 @@ class ConditionedProxies {
   using Conditioner = PositionConditioner<Scalar, Storage>;
   using Tracker = EntryDirection<Scalar, Storage>;
 
-  /// The sub-steps of a tick without the last one. before: the conditioned position of the last tick, m.
-  void step_between(const Vector& before, const Vector& direction) noexcept {
+  /// The sub-steps of a tick without the last one, from the last tip to this one (m).
+  void step_between(const Vector& tip, const Vector& direction) noexcept {
     for (std::uint32_t i = 1; i < sub_steps_; ++i) {
-      const Vector between = before + (static_cast<Scalar>(i) / static_cast<Scalar>(sub_steps_)) * (tip_ - before);
+      const Vector between = tip_ + (static_cast<Scalar>(i) / static_cast<Scalar>(sub_steps_)) * (tip - tip_);
       for (Proxy& proxy : proxies_) proxy.step_finite(between, direction);
     }
   }

@@ -30,14 +30,14 @@ struct Exact {
   /// One tick in space. p: position of the device, m. axis: the needle's unit direction. K06 (41), with (21)-(23) for
   /// f_b
   template <typename L, typename C>
-  static constexpr SpaceTick<typename L::Scalar> step(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                                      const Vector3<typename L::Scalar>& p,
-                                                      const Vector3<typename L::Scalar>& axis) noexcept {
+  [[gnu::always_inline]] static constexpr SpaceTick<typename L::Scalar> step(
+      const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<typename L::Scalar>& p,
+      const Vector3<typename L::Scalar>& axis) noexcept {
     using namespace lane;
     using Scalar = typename L::Scalar;
     using Vector = Vector3<Scalar>;
     const auto& [law, a, n, c] = params;
-    const Vector p_prev = select(state.started, state.p, p);  // p(k-1); in the first tick p(k)
+    const Vector& p_prev = previous(state, p);  // p(k-1); in the first tick p(k)
 
     if (const auto was_outside = !inside(state.phase); any(was_outside)) {
       const Vector q_free = p + c.free_offset(state.e, state.coupling);  // K06 (40) with f = 0

@@ -46,8 +46,10 @@ constexpr Scalar first_root(Scalar a, Scalar b, Scalar c) noexcept {
 /// (thin law), gap can change its sign in the jump. The proxy then rests on the break, and its force lies between the
 /// two values of the edge.
 template <int direction, typename Pieces>
-constexpr typename Pieces::Scalar slide(const Pieces& band, std::size_t i, typename Pieces::Scalar q_prev,
-                                        typename Pieces::Scalar f_star, typename Pieces::Scalar g) noexcept {
+[[gnu::noinline]] constexpr typename Pieces::Scalar slide(const Pieces& band, std::size_t i,
+                                                          typename Pieces::Scalar q_prev,
+                                                          typename Pieces::Scalar f_star,
+                                                          typename Pieces::Scalar g) noexcept {
   using Scalar = typename Pieces::Scalar;
   const std::size_t last = direction > 0 ? band.last() : 0;
   Scalar start = q_prev;
@@ -111,9 +113,10 @@ constexpr typename Pieces::Scalar masked_slide(const Pieces& band, typename Piec
 /// f* holds the proxy still. If f* lies in the band at q_prev, the proxy sticks. If f* is below the band, the proxy
 /// slides in. If f* is above the band, it slides out. Each piece is visited at most once, so the time is bounded.
 template <typename Pieces>
-constexpr Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces, typename Pieces::Scalar q_prev,
-                                                           typename Pieces::Scalar f_star,
-                                                           typename Pieces::Scalar g) noexcept {
+[[gnu::always_inline]] constexpr Friction<typename Pieces::Scalar> exact_friction(const Pieces& pieces,
+                                                                                  typename Pieces::Scalar q_prev,
+                                                                                  typename Pieces::Scalar f_star,
+                                                                                  typename Pieces::Scalar g) noexcept {
   using namespace lane;
   using Scalar = typename Pieces::Scalar;
   if constexpr (OneNumber<Scalar>) {

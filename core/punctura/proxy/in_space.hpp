@@ -2,6 +2,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "punctura/model/law.hpp"
 #include "punctura/model/vector3.hpp"
@@ -107,6 +108,17 @@ constexpr void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state)
     state.pieces = params.law.pieces(state.cos_beta);
 }
 
+/// p(k-1), m; in the first tick p(k). For one number it is state.p itself, until the tick ends: a copy would cost time.
+template <typename L, typename C, typename Scalar>
+[[gnu::always_inline]] constexpr decltype(auto) previous(SpaceState<L, C>& state, const Vector3<Scalar>& p) noexcept {
+  if constexpr (OneNumber<Scalar>) {
+    if (!state.started) state.p = p;
+    return std::as_const(state.p);
+  } else {
+    return select(state.started, state.p, p);
+  }
+}
+
 /// Fixes b and U at entry, K06 (41) and (17), for the lanes in which the tip has `passed` the surface. They stay
 /// until the tip leaves.
 ///
@@ -128,28 +140,26 @@ constexpr void enter(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
 
 /// Ends a tick inside: computes the force and moves the proxy, from the friction along b.
 ///
-/// It is always inlined, and it keeps f, e and b in local vectors: the processor waits when it loads a vector from
-/// memory whose numbers have just been stored there one by one. GCC 12 -O2 on Zen 2: a tick of the exact solver in
-/// eight membranes takes 154 ns instead of 171.
+/// A tick in space is always inlined as a whole, so that the compiler leaves out what nobody reads, and keeps the rest
+/// in registers: the processor waits when it loads a vector whose numbers have just been stored one by one.
+/// docs/decisions/tick-in-space.md has the figures.
 template <typename L, typename C, typename Scalar>
 [[gnu::always_inline]] constexpr SpaceTick<Scalar> settle_inside(
     const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
     const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth) noexcept {
-  const Vector3<Scalar> e_prev = state.e, b = state.b;
+  const Vector3<Scalar> e_prev = state.e;
   const Band<Scalar> band = state.pieces.band(depth);
-  const Vector3<Scalar> f = f_star + b * (friction.force - b.dot(f_star));                 // K06 (39)
-  const Vector3<Scalar> e = e_prev - (p - p_prev) + params.coupling.inv_g * (f - f_star);  // K06 (25), (37)
-  state.f = f;
-  state.e = e;
-  params.coupling.advance(state.coupling, e, e_prev);
+  state.f = f_star + state.b * (friction.force - state.b.dot(f_star));           // K06 (39)
+  state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (state.f - f_star);  // K06 (25), (37)
+  params.coupling.advance(state.coupling, state.e, e_prev);
   state.started = Mask<Scalar>(true);
   state.p = p;
   if constexpr (LanesThatRemember<L>)
     if (params.law.remembers())
-      params.law.advance(params.n.dot(p + e - params.a) / state.cos_beta, inside(state.phase));
+      params.law.advance(params.n.dot(p + state.e - params.a) / state.cos_beta, inside(state.phase));
   state.phase = friction.phase;
   if constexpr (LawWithMemory<L>) {
-    const Scalar now = params.n.dot(p + e - params.a) / state.cos_beta;
+    const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
     if (advance_memory(params.law, state.law, now, time_step<L>(params.coupling))) {
       if constexpr (RefreshesPieces<L>)
         params.law.refresh(state.pieces, state.law);
@@ -158,13 +168,14 @@ template <typename L, typename C, typename Scalar>
     }
   }
   if constexpr (LooksAhead<PiecesOf<L>>) state.pieces.look_at(depth);
-  return {f, p + e, b, friction.force, depth, band, friction.phase};
+  return {state.f, p + state.e, state.b, friction.force, depth, band, friction.phase};
 }
 
 /// Ends a tick outside or barred: f = 0.
 template <typename L, typename C, typename Scalar>
-constexpr SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                           const Vector3<Scalar>& p) noexcept {
+[[gnu::always_inline]] constexpr SpaceTick<Scalar> settle_outside(const SpaceParams<L, C>& params,
+                                                                  SpaceState<L, C>& state,
+                                                                  const Vector3<Scalar>& p) noexcept {
   const Vector3<Scalar> e_prev = state.e;
   state.f = {};                                                                      // K06 (41), outside
   state.e = without_denormals(params.coupling.free_offset(e_prev, state.coupling));  // K06 (25) with f = 0

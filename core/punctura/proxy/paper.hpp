@@ -28,14 +28,14 @@ struct Paper {
 
   /// One tick in space. p: position of the device, m. axis: the needle's unit direction. K06 (41)
   template <typename L, typename C>
-  static constexpr SpaceTick<typename L::Scalar> step(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
-                                                      const Vector3<typename L::Scalar>& p,
-                                                      const Vector3<typename L::Scalar>& axis) noexcept {
+  [[gnu::always_inline]] static constexpr SpaceTick<typename L::Scalar> step(
+      const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<typename L::Scalar>& p,
+      const Vector3<typename L::Scalar>& axis) noexcept {
     using namespace lane;
     using Scalar = typename L::Scalar;
     using Vector = Vector3<Scalar>;
     const auto& [law, a, n, c] = params;
-    const Vector p_prev = select(state.started, state.p, p);  // p(k-1); in the first tick p(k)
+    const Vector& p_prev = previous(state, p);  // p(k-1); in the first tick p(k)
     const Vector q_star = p + c.free_offset(state.e, state.coupling) + c.inv_g * state.f;  // K06 (40), (41): q*
 
     const auto in_front = n.dot(q_star - a) <= 0;                    // K06 (41), IF: the tip is in front

@@ -34,10 +34,7 @@ class Proxy3d {
       : Proxy3d(law, point, inward_normal, C(coupling, period), solver) {}
 
   /// Clears the state. A proxy that starts inside stays barred until it has been outside, in front.
-  constexpr void reset() noexcept {
-    state_ = {};
-    keep({});
-  }
+  constexpr void reset() noexcept { state_ = {}; }
 
   /// One tick. p: position of the device, m. axis: the needle's unit direction. Returns the force on the device, N.
   /// K06 (41).
@@ -59,8 +56,8 @@ class Proxy3d {
   template <typename OtherLaw, typename OtherCoupling>
   constexpr void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
     const auto& old = previous.state();
-    keep(previous.tick());
     state_ = {old.started, old.phase, old.p, old.e, old.f, old.b, old.cos_beta};
+    keep(previous.tick());
     if constexpr (std::is_same_v<decltype(state_.coupling), std::remove_cvref_t<decltype(old.coupling)>>) {
       state_.coupling = old.coupling;
       if constexpr (requires { params_.coupling.clear_unused(state_.coupling); })
@@ -79,10 +76,13 @@ class Proxy3d {
   /// save_state() and load_state(): they also keep what tick() has beside it.
   constexpr const State& state() const noexcept { return state_; }
   static void archive(auto& self, auto& state) {
+    constexpr bool reading = std::remove_reference_t<decltype(state)>::reading;
     State::archive(self.state_, state);
-    state.numbers(self.axial_force_, self.depth_, self.band_.lower, self.band_.upper);
-    if constexpr (std::remove_reference_t<decltype(state)>::reading)
-      if (inside(self.state_.phase)) lay_out(self.params_, self.state_);
+    if constexpr (reading)
+      if (self.is_inside()) lay_out(self.params_, self.state_);
+    SpaceTick<Scalar> last = self.tick();
+    state.numbers(last.axial_force, last.depth, last.band.lower, last.band.upper);
+    if constexpr (reading) self.keep(last);
   }
   void describe(auto& parameters) const {
     params_.describe(parameters);
@@ -93,41 +93,54 @@ class Proxy3d {
   constexpr Solver solver() const noexcept { return solver_; }
   /// The result of the last step.
   constexpr SpaceTick<Scalar> tick() const noexcept {
-    return {state_.f, position(), state_.b, axial_force_, depth_, band_, state_.phase};
+    return {state_.f, position(), state_.b, axial_force(), depth(), band(), state_.phase};
   }
   constexpr const L& law() const noexcept { return params_.law; }
   constexpr const Vector& force() const noexcept { return state_.f; }         ///< f(k), N
   constexpr const Vector& offset() const noexcept { return state_.e; }        ///< e(k) = q(k) - p(k), m
   constexpr Vector position() const noexcept { return state_.p + state_.e; }  ///< q(k), m
   constexpr const Vector& direction() const noexcept { return state_.b; }     ///< b, constant from entry on
-  constexpr Scalar axial_force() const noexcept { return axial_force_; }      ///< b.f(k), N
   constexpr Phase phase() const noexcept { return state_.phase; }
-  constexpr const Band<Scalar>& band() const noexcept { return band_; }  ///< the band of the axial force, N
-  constexpr Scalar depth() const noexcept { return depth_; }             ///< m, see SpaceTick
+  constexpr Scalar axial_force() const noexcept { return is_inside() ? axial_force_ : Scalar(0); }  ///< b.f(k), N
+  /// The band of the axial force, N.
+  constexpr Band<Scalar> band() const noexcept {
+    if (!is_inside()) return {0, 0};
+    if constexpr (LawWithMemory<L>)
+      return band_;
+    else
+      return state_.pieces.band(depth_);
+  }
+  /// m, see SpaceTick.
+  constexpr Scalar depth() const noexcept {
+    if (is_inside()) return depth_;
+    return state_.started ? params_.n.dot(position() - params_.a) : Scalar(0);
+  }
 
  private:
   template <typename, typename>
   friend class ConditionedProxies;  // it checks p and axis once for all membranes
 
   /// step() without the check of p and axis.
-  constexpr const Vector& step_finite(const Vector& p, const Vector& axis) noexcept {
+  [[gnu::always_inline]] constexpr Vector step_finite(const Vector& p, const Vector& axis) noexcept {
     if (solver_ == Solver::paper)
       keep(Paper::step(params_, state_, p, axis));
     else
       keep(Exact::step(params_, state_, p, axis));
     return state_.f;
   }
-  /// Stores what tick() cannot read from the state.
-  constexpr void keep(const SpaceTick<Scalar>& tick) noexcept {
+  constexpr bool is_inside() const noexcept { return inside(state_.phase); }
+  /// Stores what tick() cannot compute from the state. The compiler then leaves the rest of the result out of a tick.
+  [[gnu::always_inline]] constexpr void keep(const SpaceTick<Scalar>& tick) noexcept {
+    if (!inside(tick.phase)) return;
     axial_force_ = tick.axial_force;
     depth_ = tick.depth;
-    band_ = tick.band;
+    if constexpr (LawWithMemory<L>) band_ = tick.band;  // the law has changed since
   }
 
   Params params_;
   Solver solver_;
   State state_{};
-  Scalar axial_force_{}, depth_{};  ///< of the last tick, as in SpaceTick
+  Scalar axial_force_{}, depth_{};  ///< of the last tick inside, as in SpaceTick
   Band<Scalar> band_{};
 };
 

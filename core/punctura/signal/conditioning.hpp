@@ -90,8 +90,10 @@ class PositionConditioner {
   Scalar low_pass_gain() const noexcept { return low_pass_.gain(); }          ///< of a sample, 0 to 1
   const Line* line() const noexcept { return fits_ ? &lines_[0] : nullptr; }  ///< of one axis; null: no line is fitted
 
-  Vector step(const Vector& measured) noexcept {
-    if (!fits_) return low_pass_.step(measured);
+  Vector step(const Vector& measured) noexcept { return fits_ ? fitted(measured) : low_pass_.step(measured); }
+
+ private:
+  Vector fitted(const Vector& measured) noexcept {
     const bool first = !low_pass_.started();
     const Vector y =
         low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});
@@ -99,8 +101,6 @@ class PositionConditioner {
       played_[i] = first ? y[i] : std::min(std::max(played_[i], y[i] - half_play_), y[i] + half_play_);
     return played_;
   }
-
- private:
   Line fit(Scalar encoder_step, Scalar period) const {
     return {encoder_step, Smoothing<Scalar>::of(encoder_step).window, period, low_pass_.lag()};
   }
