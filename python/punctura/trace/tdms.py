@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
+import logging
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +14,10 @@ import numpy as np
 from punctura.extras import optional
 from punctura.trace.heading import unique, with_unit
 from punctura.trace.reading import Reading
-from punctura.trace.sheets import only_trace, wanted_sheet
+from punctura.trace.sheets import is_trace, only_trace, wanted_sheet
 from punctura.trace.size import check_size
 from punctura.trace.table import Table
-from punctura.trace.trace import TraceError
+from punctura.trace.trace import Finding, TraceError
 from punctura.trace.unreadable import unreadable
 
 
@@ -21,7 +25,7 @@ def read_tdms(path: Path, reading: Reading) -> Table:
     """The group that is stated, or the only one that can be a trace. Raises TraceError, OSError."""
     opened = optional("nptdms", "formats", f"{path}: a TDMS file").TdmsFile.open
     try:
-        with opened(path) as file:
+        with _first_warning() as warned, opened(path) as file:
             names = [group.name for group in file.groups()]
             wanted = names if reading.sheet is None else [wanted_sheet(path, names, reading.sheet)]
             tables = {name: _table(path, file[name]) for name in wanted}
@@ -29,7 +33,30 @@ def read_tdms(path: Path, reading: Reading) -> Table:
         raise
     except Exception as error:  # npTDMS raises many types for a damaged file
         raise unreadable(path, "TDMS", error) from None
-    return only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+    if warned and not any(is_trace(table, reading) for table in tables.values()):
+        raise unreadable(path, "TDMS", ValueError(warned[0][:100]))  # its last channels are shorter, or not there
+    found = only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+    if warned:
+        text = f"the file seems damaged or cut off ({warned[0][:100]}); copy or export it again"
+        found.findings.append(Finding("damaged", text))
+    return found
+
+
+@contextlib.contextmanager
+def _first_warning() -> Iterator[list[str]]:
+    """Takes the first warning of npTDMS, which else prints them all, with bytes of the file."""
+    told: list[str] = []
+    handler = logging.Handler(logging.WARNING)
+    handler.emit = lambda record: told.append(record.getMessage()) if not told else None  # type: ignore[method-assign]
+    logger, console = logging.getLogger("nptdms"), importlib.import_module("nptdms.log").log_manager.console_handler
+    level = console.level
+    logger.addHandler(handler)
+    console.setLevel(logging.CRITICAL + 1)
+    try:
+        yield told
+    finally:
+        console.setLevel(level)
+        logger.removeHandler(handler)
 
 
 def _table(path: Path, group: Any) -> Table:

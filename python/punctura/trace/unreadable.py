@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 from punctura.trace.trace import TraceError
@@ -22,7 +23,7 @@ def unreadable(path: Path, kind: str, error: Exception) -> TraceError:
 
     Raises OSError; also `error` itself if it is one of the system. Those of readers for damaged data have no number.
     """
-    if isinstance(error, OSError) and error.errno is not None:
+    if isinstance(error, OSError) and error.errno not in (None, errno.EINVAL):  # EINVAL: a place before the file
         raise error
     with path.open("rb") as file:
         head = file.read(8)

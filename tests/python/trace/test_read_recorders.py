@@ -46,6 +46,18 @@ def test_a_tdms_file_has_units_and_a_time_of_its_own(tmp_path):
         read_trace(tmp_path / "c.tdms")
 
 
+def test_a_tdms_file_that_was_cut_is_named_and_its_bytes_are_not_printed(tmp_path, capsys):
+    write_tdms(tmp_path / "a.tdms", ["trial"])
+    good = (tmp_path / "a.tdms").read_bytes()
+    for share in (0.5, 0.9):
+        (tmp_path / "b.tdms").write_bytes(good[: int(share * len(good))])
+        with pytest.raises(TraceError, match=r"b\.tdms: is damaged or cut off"):
+            read_trace(tmp_path / "b.tdms")
+    (tmp_path / "c.tdms").write_bytes(good[:-10])  # of a channel that is not needed
+    assert [one.kind for one in read_trace(tmp_path / "c.tdms").findings] == ["damaged"]
+    assert capsys.readouterr() == ("", "")
+
+
 def fill(writer, store, serialize, more):
     """A force sensor, and a depth at half of its rate."""
     types = {name.split("/")[-1]: kind for name, kind in store.types.items()}

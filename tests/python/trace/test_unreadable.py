@@ -68,3 +68,9 @@ def test_an_error_of_the_system_is_told_as_such(tmp_path):
     path.write_bytes(b"MATLAB")
     with pytest.raises(OSError, match=os.strerror(errno.EIO)):
         unreadable(path, "MAT", OSError(errno.EIO, os.strerror(errno.EIO), str(path)))
+
+
+def test_a_place_before_the_beginning_of_a_file_is_damage(tmp_path):
+    path = tmp_path / "a.xlsx"
+    path.write_bytes(b"PK")
+    assert "is damaged or cut off" in str(unreadable(path, "XLSX", OSError(errno.EINVAL, os.strerror(errno.EINVAL))))
