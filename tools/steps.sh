@@ -209,7 +209,7 @@ step_python() {
   python -m pytest -n 4 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
 }
 
-# The studio's page: types, lint, tests, message types in agreement with the server, and size.
+# The studio's page: types, lint, unused exports, tests, message types in agreement with the server, and size.
 step_web() {
   local types="src/wire/messages.ts src/wire/limit_words.json" file code=0
   export NO_COLOR=1
@@ -218,6 +218,7 @@ step_web() {
   cd web || return
   npm run -s check || code=1
   npm run -s lint || code=1
+  npm run -s unused || code=1
   for file in $types; do cp "$file" "$root/build/${file##*/}"; done
   npm run -s types >/dev/null || code=1
   for file in $types; do

@@ -7,7 +7,5 @@ export const fixedNumber = (value: number | undefined, places: number): string =
 /** Numbers with units, with a fixed number of digits so that the text does not jump. */
 export const mm = (metres: number, places = 2): string => `${(metres * 1e3).toFixed(places)} mm`;
 export const newton = (force: number, places = 2): string => `${force.toFixed(places)} N`;
-export const degrees = (radians: number, places = 0): string => `${((radians * 180) / Math.PI).toFixed(places)}°`;
-export const microseconds = (seconds: number): string => `${(seconds * 1e6).toFixed(1)} µs`;
 /** The same words, with no line break between a number and its unit. */
 export const unbroken = (text: string): string => text.replace(/(\d) (?=(N|mN|mm|mL|s|degrees)\b)/g, "$1\u00a0");

@@ -1,7 +1,7 @@
 import { type Phase, wordsOf } from "../wire/ticks.ts";
 
 /** The displayed kinds of a membrane's phase. */
-export type PhaseKind = "outside" | "sticking" | "in" | "out" | "through" | "barred";
+type PhaseKind = "outside" | "sticking" | "in" | "out" | "through" | "barred";
 
 export interface PhaseWords {
   readonly kind: PhaseKind;

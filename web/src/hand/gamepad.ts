@@ -39,7 +39,7 @@ export class Sticks {
  * Moves the hand. The left stick moves along the needle (forward is in) and to the side. The right stick tilts the
  * needle and moves it towards the viewer. Returns whether the hand moved.
  */
-export function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
+function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
   const [side, back, turn, near] = pad.axes.map(stick);
   if (!side && !back && !turn && !near) return false;
   const pose = hand.pose();

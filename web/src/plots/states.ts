@@ -3,7 +3,7 @@ import { LIMITS, type Limit } from "../state/limits.ts";
 import { wordsOf } from "../wire/ticks.ts";
 
 /** ServoState of core/punctura/servo/snapshot.hpp. */
-export const STATES = wordsOf("state");
+const STATES = wordsOf("state");
 export type State = (typeof STATES)[number];
 
 /** The meaning of each state for the force, in one or two words. */

@@ -7,7 +7,7 @@ import type { MembraneEvent } from "../wire/messages.ts";
 export const SHOW_AGAIN = "Show the pop again, slowly";
 
 /** Shown again: this long before the pop, and this long after it, s. */
-export const HALF = 0.05;
+const HALF = 0.05;
 
 /** The last pop of a source at or before its shown tick; null if there is none. */
 export function lastPop(source: Source): MembraneEvent | null {
@@ -17,7 +17,7 @@ export function lastPop(source: Source): MembraneEvent | null {
 }
 
 /** The ticks around an event as a source of its own; null if the source no longer holds the event's tick. */
-export function excerptAround(source: Source, event: MembraneEvent): Source | null {
+function excerptAround(source: Source, event: MembraneEvent): Source | null {
   const of = source.excerpt?.of ?? source;
   const { first, end } = source.history;
   const scene = source.scene.value;

@@ -2,7 +2,7 @@ import type { Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 
 /** For this long after a pop its ring is shown, s of the run. */
-export const RING_S = 0.9;
+const RING_S = 0.9;
 const GROWN = 7; // radii of the needle by which the ring grows
 const FIRST = 2.5; // radii of the needle at the pop
 

@@ -13,7 +13,7 @@ export interface Layer {
 }
 
 /** The lumen of a vessel, in the undeformed tissue, mm. */
-export interface Vessel {
+interface Vessel {
   readonly depth: number;
   readonly radius: number;
   readonly wall: number;

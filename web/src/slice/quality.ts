@@ -1,5 +1,5 @@
 /** Pixels of the tissue's picture at each level, before it is scaled up. */
-export const LEVELS = [40_000, 22_000, 12_000] as const;
+const LEVELS = [40_000, 22_000, 12_000] as const;
 
 const SLOW_MS = 10; // a third of the time of a picture at 30 a second: the 3-D view needs the rest
 const FAST_MS = 3.5;

@@ -1,5 +1,4 @@
 import type { ToPixels } from "./needle_echo.ts";
-import type { InPicture } from "./needle_span.ts";
 import type { Raster } from "./picture.ts";
 
 const WIDEST_MM = 50; // of a linear probe
@@ -44,6 +43,3 @@ export function rulerMarks(depth: number): number[] {
   const step = depth > 40 ? 10 : depth > 16 ? 5 : 2;
   return Array.from({ length: Math.floor(depth / step) + 1 }, (_, i) => i * step).filter((at) => at < depth);
 }
-
-export const within = ({ along, depth }: InPicture, frame: Frame): boolean =>
-  Math.abs(along) <= frame.width / 2 && depth >= 0 && depth <= frame.depth;

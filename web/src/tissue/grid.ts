@@ -24,12 +24,6 @@ export function rowsOf(layers: readonly Layer[]): number[] {
   return rows;
 }
 
-/** Writes a row of points: two numbers each in `rest` (u, d) and three in `moved` (u, d, across). */
-export interface Row {
-  readonly rest: Float32Array;
-  readonly moved: Float32Array;
-}
-
 const spot = { track: 0, u: 0, down: 0 };
 
 /** One row of the deformed cut at depth d. Its ends and the lowest row stay where they are. */

@@ -61,7 +61,7 @@ export function vesselOf(scene: Pick<SceneView, "lumen">, layers: readonly Layer
   };
 }
 
-export const isWall = (fill: Fill): boolean => fill === "vein wall" || fill === "artery wall";
+const isWall = (fill: Fill): boolean => fill === "vein wall" || fill === "artery wall";
 
 type Triple = readonly number[];
 const dot = (a: Triple, b: Triple): number => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;

@@ -17,7 +17,7 @@ function random(seed: number): Float32Array {
 const wrapped = (x: number, period: number): number => ((x % period) + period) % period;
 
 /** A random number from 0 to 1 that belongs to a cell of a grid. */
-export const cellValue = (x: number, y: number, kind = 0): number =>
+const cellValue = (x: number, y: number, kind = 0): number =>
   RANDOM[(Math.imul(x, 1619) + Math.imul(y, 31337) + Math.imul(kind, 6971)) & (SIZE - 1)]!;
 
 /** Value noise from 0 to 1. It repeats along x after `period` cells, a whole number. */

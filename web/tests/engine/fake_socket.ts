@@ -5,7 +5,7 @@ import type { Message } from "../../src/wire/messages.ts";
 import type { TickBatch } from "../../src/wire/ticks.ts";
 
 /** A WebSocket whose other end is the test. */
-export class FakeSocket {
+class FakeSocket {
   readyState = 0;
   binaryType = "";
   readonly sent: Record<string, unknown>[] = [];

@@ -5,7 +5,6 @@ import { Signal } from "../../state/signal.ts";
 export const PANELS = ["view", "force-depth", "phases", "time-plots"] as const;
 export type PanelName = (typeof PANELS)[number];
 export const PLACES = ["a", "b", "c", "d"] as const;
-export type Place = (typeof PLACES)[number];
 
 export const TITLES: Readonly<Record<PanelName, string>> = {
   view: "View",

@@ -23,7 +23,7 @@ interface Frame {
 }
 
 /** The help of a field, with its bounds. */
-export function helpText(field: Field): string {
+function helpText(field: Field): string {
   const bounds = boundText(field);
   const unit = field.unit ? ` ${field.unit}` : "";
   return [field.help, bounds && `${bounds.charAt(0).toUpperCase()}${bounds.slice(1)}${unit}.`]

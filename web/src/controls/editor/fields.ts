@@ -1,6 +1,6 @@
 /** Converts the JSON Schema of a scene file to the fields of a form. All texts come from the schema. */
 
-export type FieldKind = "number" | "integer" | "text" | "choice" | "vector" | "numbers";
+type FieldKind = "number" | "integer" | "text" | "choice" | "vector" | "numbers";
 
 export interface Bound {
   readonly value: number;

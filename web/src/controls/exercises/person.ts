@@ -4,7 +4,7 @@ import { keep, storage } from "../../state/storage.ts";
 
 const KEY = "punctura.person";
 const GROUP_KEY = "punctura.class";
-export const LONGEST_NAME = 80;
+const LONGEST_NAME = 80;
 
 /** The name of the person who practises, stored in this browser. */
 export class Person {

@@ -44,7 +44,7 @@ export function traceDrawing(
   );
 }
 
-export function drawTrace(
+function drawTrace(
   pen: Pen,
   width: number,
   height: number,

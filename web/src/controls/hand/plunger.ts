@@ -6,7 +6,7 @@ import type { App } from "../../state/app.ts";
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
 
 /** Whether the syringe is empty. injected, volume: m³. Air takes less room under pressure. */
-export const isEmpty = (injected: number, volume: number): boolean => injected > 0.9 * volume;
+const isEmpty = (injected: number, volume: number): boolean => injected > 0.9 * volume;
 
 /** The syringe, in scenes that have one: a button that pushes while it is held, and what the thumb feels. */
 export function plungerRows(app: App): HTMLElement {

@@ -12,7 +12,7 @@ const GESTURES = ["pointerup", "keydown"] as const; // with which a browser lets
  * Plays friction as noise and pops as clicks. The volume follows the friction's power and the pop's drop. The audio
  * context is created when sound is first switched on.
  */
-export class Sound {
+class Sound {
   /** The user's answer; null before it. This browser remembers it. */
   readonly wanted = new Signal<boolean | null>(null);
   private context: AudioContext | null = null;

@@ -6,7 +6,7 @@ import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/
 import { gapBefore } from "./gap.ts";
 
 /** Limit for the page's memory: 11 minutes at 1600 Hz. The rest stays in the file only. */
-export const MOST_TICKS = 1 << 20;
+const MOST_TICKS = 1 << 20;
 
 export interface Progress {
   readonly bytes: number;

@@ -1,5 +1,5 @@
 /** What a page without a server says where the studio on a computer is needed. */
-export const GET_STUDIO = "Install Punctura on your computer and start “punctura run”.";
+const GET_STUDIO = "Install Punctura on your computer and start “punctura run”.";
 
 export const NOTES = [
   "The core runs in this page as WebAssembly, on a simulated device in a simulated hand.",

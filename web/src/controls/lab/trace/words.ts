@@ -39,7 +39,7 @@ export function parameterWords(name: string): string {
 }
 
 /** A number with so many digits after the point that its interval is told with two digits. */
-export function digitsOf(low: number | null, high: number | null, value: number): number {
+function digitsOf(low: number | null, high: number | null, value: number): number {
   const width = low === null || high === null ? Math.abs(value) / 100 : (high - low) / 2;
   if (!(width > 0)) return 3;
   return Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(width))));
