@@ -120,6 +120,11 @@ def command(
     read, known = _trace.read_with_needle(trace, stated, needle, context)
     found = identify(read, known, count, lambda word: typer.echo(f"punctura: {word}", err=True))
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
+    if not as_json and not found.doubts.explained.ok:
+        from punctura.rivals import better
+
+        typer.echo("punctura: the rivals", err=True)
+        typer.echo(better.in_words(found))
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
     if report is not None:

@@ -4,10 +4,12 @@ import json
 
 import numpy as np
 import pytest
-from punctura.rivals import hold_out
+from punctura.identify import identify
+from punctura.rivals import Layer, Rival, better, hold_out
 from punctura.rivals.hold_out import REPEAT, another_trace, fitted, means, second_insertion
 from punctura.rivals.kinds import kinds
-from punctura.trace import Trace, TraceError
+from punctura.rivals.path import path_of
+from punctura.trace import Trace, TraceError, segment
 from traces import NEEDLE, trace
 
 NEEDLE_WORDS = f"diameter_mm={NEEDLE.diameter * 1e3},tip_angle_rad={NEEDLE.tip_angle}"
@@ -90,3 +92,17 @@ def test_the_command_predicts_an_insertion_and_a_folder(punctura, tmp_path):
     done = punctura("identify", folder, *common)
     assert done.status == 1 and "Mean over 2 traces" in done.stdout and "broken.csv: " in done.stdout
     assert punctura("identify", folder, *common, "--out", tmp_path / "out").status == 2
+
+
+def test_a_rival_that_explains_the_trace_better_is_named_and_only_then(monkeypatch):
+    """The second trace is made by a rival: an exponential rise, and a friction that grows with the depth."""
+    monkeypatch.setattr("punctura.rivals.comparison.kinds", hold_out.kinds)
+    plain = made()
+    told = better.in_words(identify(plain, NEEDLE, 1))
+    assert told.startswith("No rival does better: ") and told.endswith("(punctura rivals).")
+    numbers = {"scale": 0.05, "growth": 900.0, "friction": 0.1, "friction_slope": 40.0, "puncture": 3e-3}
+    path = path_of(plain, segment(plain))
+    noise = NOISE * np.random.default_rng(4).normal(size=len(plain))
+    force = Layer(5e-3, Rival("exponential", numbers)).resistance(path) + noise
+    told = better.in_words(identify(Trace(plain.depth, force, plain.time), NEEDLE, 1))
+    assert told.startswith("Another model does better: exponential")
