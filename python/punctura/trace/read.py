@@ -49,14 +49,14 @@ def read_trace(
     encoding: of its letters; None: as the file shows, and what can be read in two ways is an error. sheet: of a
     workbook, by name or number from 1. speeds: of the needle, for a file without depth: from which time on (s since the
     first sample), how fast (m/s, inwards). depth_file: another file with depth and time, on the same clock; columns and
-    units are of both files. Raises TraceError, OSError.
+    units are of both files. Raises TraceError, RecordingError (damaged), OSError.
     """
     other = None if depth_file is None else os.fspath(depth_file)
     return read_as(path, Reading(columns or {}, units or {}, order, decimal, encoding, sheet, tuple(speeds), other))
 
 
 def read_as(path: str | os.PathLike[str], reading: Reading) -> Trace:
-    """As read_trace(). Raises TraceError, OSError."""
+    """As read_trace()."""
     path = Path(path)
     check_file(path)
     recording = recording_at(path)
