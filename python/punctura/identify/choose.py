@@ -10,7 +10,7 @@ from punctura.identify.all_extensions import from_all
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Start
 from punctura.identify.hops import GAIN, with_hops
-from punctura.identify.model import ONE_TISSUE, Model, extensions
+from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.parameters import Parameters
 from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
@@ -103,7 +103,7 @@ def _extended(search: Search, current: Candidate) -> Candidate:
     """Adds extensions, one after the other, as long as one is worth it."""
     for _ in range(PASSES):
         before = current
-        for extension in extensions(search.needle):
+        for extension in _in_order(search):
             if not seen(search.segments, extension, current.model):
                 continue
             model = current.model.extended(extension)
@@ -120,6 +120,11 @@ def _extended(search: Search, current: Candidate) -> Candidate:
         if current is before:
             break
     return current
+
+
+def _in_order(search: Search) -> list[Extension]:
+    """Every extension. A relaxation that a rest shows comes first: without it, the others bend to the rest."""
+    return sorted(extensions(search.needle), key=lambda one: not (search.rule.air.relaxes and one.needs_hold))
 
 
 def _of_one_tissue(search: Search, current: Candidate) -> Candidate:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
@@ -14,6 +15,7 @@ from punctura.trace.blocks import held_out
 from punctura.trace.information import Information, information
 
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
+RELAXATION = "relaxation"  # begins the names of its parameters
 WORSE = 1.02  # a held-out error that is higher by less than this factor is not worse
 
 
@@ -42,19 +44,27 @@ def candidate(name: str, model: Model, fit: Fit) -> Candidate:
     return Candidate(name, model, fit, effective_samples(fit.residuals, len(fit.u)))
 
 
+def _relaxing(one: Candidate) -> bool:
+    return any(name.startswith(RELAXATION) for name in one.model.names)
+
+
 class Rule:
     """Compares candidates of one trace. BIC decides; a larger model must also predict samples that it did not see."""
 
     def __init__(self, trace: Trace, segments: Segments) -> None:
         self._masks = held_out(len(trace), segments)
+        self.air = AirNoise(trace, segments)
         self._errors: dict[int, tuple[Candidate, float | None]] = {}
 
     def prefers(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` is the better model.
 
         Both BIC count the independent samples of the candidate with the smaller error. The smaller model wins unless
-        the larger one's BIC is smaller by more than EVIDENCE.
+        the larger one's BIC is smaller by more than EVIDENCE. Where the force relaxes, no model without a relaxation
+        is better than one with it.
         """
+        if self.air.relaxes and _relaxing(new) != _relaxing(old):
+            return _relaxing(new) and new.fit.sse < old.fit.sse
         effective = min(new, old, key=lambda one: one.fit.sse).effective
         gain = old.worth(effective).bic - new.worth(effective).bic
         if len(new.fit.u) <= len(old.fit.u):
@@ -64,16 +74,17 @@ class Rule:
         after, before = self.held_out_error(new), self.held_out_error(old)
         return after is not None and (before is None or after <= WORSE * before)
 
-    @staticmethod
-    def _may_be_drift(new: Candidate, old: Candidate) -> bool:
+    def _may_be_drift(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` adds a relaxation that may be a slow drift of the sensor.
 
-        It is one unless BIC prefers `new` also where slow noise may explain what each model leaves.
+        It is one unless BIC prefers `new` also where slow noise, as far as it can be in air, may explain what each
+        model leaves.
         """
         more = set(new.model.names) - set(old.model.names)
-        if not any(name.startswith("relaxation") for name in more):
+        if not any(name.startswith(RELAXATION) for name in more):
             return False
-        gain = old.fit.noise.misfit_beyond_slow_noise() - new.fit.noise.misfit_beyond_slow_noise()
+        left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(self.air.allows) for one in (old, new))
+        gain = left_old - left_new
         return gain - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
 
     def held_out_error(self, one: Candidate) -> float | None:
@@ -85,7 +96,7 @@ class Rule:
     def _held_out_error(self, found: Fit) -> float | None:
         squares = []
         for out in self._masks:
-            part = Misfit(found.misfit.trace, found.parameters, ~out)
+            part = Misfit(found.misfit.trace, found.parameters, ~out, found.misfit.zero)
             try:
                 kept = fit(part, found.free.names, found.parameters)
             except TraceError:

@@ -24,9 +24,16 @@ ROUNDS = 20  # of them, at most
 class Misfit:
     """Measured minus model force along a trace, and its derivatives. One object serves any number of fits."""
 
-    def __init__(self, trace: Trace, parameters: Parameters, used: NDArray[np.bool_] | None = None) -> None:
-        """used: (n,), the samples that count; all samples move the needle."""
+    def __init__(
+        self,
+        trace: Trace,
+        parameters: Parameters,
+        used: NDArray[np.bool_] | None = None,
+        zero: tuple[float, float] = (-np.inf, np.inf),
+    ) -> None:
+        """used: (n,), the samples that count; all samples move the needle. zero: what the air tells of it, N."""
         self.trace = trace
+        self.zero = zero
         self.used = np.ones(len(trace), bool) if used is None else used
         self._model = TraceModel(parameters.needle, trace.depth, trace.time)
         self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
@@ -110,13 +117,13 @@ def fit(
     Raises TraceError if the last search does not end.
     """
     deepest = float(misfit.trace.depth.max())
-    free = Free(names, start, deepest)
+    free = Free(names, start, deepest, misfit.zero)
     u = free.coordinates(start)
     count = 0
     for blur in blurs:
         u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
-    other = Free(names, free.parameters(u), deepest)
+    other = Free(names, free.parameters(u), deepest, misfit.zero)
     if other.walls != free.walls:
         u, free = other.coordinates(free.parameters(u)), other
         u, more, message = _search(misfit, free, u, 0, evaluations)

@@ -162,7 +162,7 @@ def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> F
 
     Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
     """
-    misfit = Misfit(trace, few.parameters)
+    misfit = Misfit(trace, few.parameters, zero=few.misfit.zero)
     ends = [Start(parameters) for parameters in (few.parameters, *few.others, *better)]
     return with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends)))
 

@@ -112,9 +112,19 @@ class Free:
     that pops deeper than the trace goes has its surface itself as coordinate: there the contact is what is seen.
     """
 
-    def __init__(self, names: Sequence[str], base: Parameters, deepest: float = np.inf) -> None:
-        """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m."""
+    def __init__(
+        self,
+        names: Sequence[str],
+        base: Parameters,
+        deepest: float = np.inf,
+        zero: tuple[float, float] = (-np.inf, np.inf),
+    ) -> None:
+        """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m.
+
+        zero: the range of the offset, N, if no drift is free.
+        """
         self.names = tuple(names)
+        self._zero = (-np.inf, np.inf) if "drift" in self.names else zero
         self.base = base
         m = len(base.membranes)
         self._at = [np.array(indices(name, m)) for name in self.names]
@@ -134,7 +144,7 @@ class Free:
         kind = kind_of(name)
         if kind == "friction":  # insertion needs mu tan(theta) < 1, K06 (7)
             return 1e-4, 0.98 / float(np.tan(self.base.needle.tip_angle))
-        return _RANGES.get(kind, (-np.inf, np.inf))
+        return self._zero if kind == "offset" else _RANGES.get(kind, (-np.inf, np.inf))
 
     def _coordinates(self, values: Array) -> Array:
         return np.where(self._log, np.log(np.where(self._log, values, 1.0)), values)

@@ -14,6 +14,7 @@ from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, Start, best_fit
 from punctura.identify.hops import with_hops
 from punctura.identify.model import Extension, Model
+from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import noise_limit, with_pops_moved
 from punctura.identify.rises import rise_starts
 from punctura.identify.start import starts
@@ -44,7 +45,7 @@ class Search:
     def fitted(self, name: str, model: Model, from_these: Sequence[Start], hops: bool = False) -> Candidate | None:
         """The model's best fit from any of these, and with hops around its end; None if none ends."""
         self.tell(name)
-        misfit = self.tried[0].fit.misfit if self.tried else Misfit(self.trace, from_these[0].parameters)
+        misfit = self.tried[0].fit.misfit if self.tried else self._misfit(from_these[0].parameters)
         enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
         try:
             best = best_fit(misfit, model.names, from_these, enough)
@@ -57,13 +58,16 @@ class Search:
         self.tried.append(found)
         return found
 
+    def _misfit(self, parameters: Parameters) -> Misfit:
+        return Misfit(self.trace, parameters, zero=self.rule.air.zero)
+
     def starts(self, membranes: int, curved: bool, most: int) -> list[Start]:
         """Start values of K06, or of a curved grip, for this number of walls: those with the least errors."""
         walls = starts(self.trace, self.segments, self.needle, membranes, curved)
         found = list(islice(walls, most) if curved else walls)
         if membranes > 1:
             found += islice(rise_starts(self.trace, self.segments, self.needle, membranes, curved), most)
-        misfit = Misfit(self.trace, found[0])
+        misfit = self._misfit(found[0])
         found.sort(key=lambda p: float(np.sum((misfit.forces(p) - self.trace.force) ** 2)))
         return [Start(parameters, blurred=True) for parameters in found[:most]]
 

@@ -6,7 +6,7 @@ cannot take up (restricted maximum likelihood, Patterson and Thompson 1971), and
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,24 +97,32 @@ class NoiseOfFit:
                 total += weight * self._variance(one) * (inverse @ (self._jacobian.T @ smeared) @ inverse)
         return total
 
+    def most_likely(self) -> tuple[Mixture, float]:
+        """The most likely mixture, and its variance, N^2."""
+        best = self._explained[int(np.argmax(self._weights()))]
+        return best.mixture, self._variance(best)
+
     def slow_and_white(self) -> tuple[float, float]:
         """Standard deviations of the slow and of the other noise, N, in the most likely mixture.
 
         Slow is a correlation length of at least SLOW of the trace.
         """
-        best = self._explained[int(np.argmax(self._weights()))]
-        share = best.mixture.share if best.mixture.length >= SLOW * self._n else 0.0
-        variance = self._variance(best)
+        best, variance = self.most_likely()
+        share = best.share if best.length >= SLOW * self._n else 0.0
         return float(np.sqrt(share * variance)), float(np.sqrt((1 - share) * variance))
 
-    def misfit_beyond_slow_noise(self) -> float:
-        """-2 ln L of a fit, where slow noise of any mixture may explain the residuals, too; smaller is better.
+    def misfit_beyond_slow_noise(self, allowed: Callable[[Mixture, float], bool]) -> float:
+        """-2 ln L of a fit, where slow noise of any allowed mixture may explain the residuals, too; smaller is better.
 
-        The mixture is the most likely one, and the parameters follow it by the linear model. Fits of the same samples
-        can be compared, also if their parameters differ.
+        allowed: of a mixture and its variance, N^2; white noise always is. The mixture is the most likely one, and the
+        parameters follow it by the linear model. Fits of the same samples can be compared, also if their parameters
+        differ.
         """
         n = self._n
-        return float(min(one.log_det + n * np.log(one.left / n) for one in self._explained))
+        worth = [(one.log_det + n * np.log(one.left / n), i, one) for i, one in enumerate(self._explained)]
+        return float(
+            next(w for w, _, one in sorted(worth) if one.mixture.share == 0 or allowed(one.mixture, one.left / n))
+        )
 
     def _variance(self, one: Explained) -> float:
         """Of a sample, N^2."""

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
-from punctura.trace import Segments, Trace
+from punctura.trace import Segments, Trace, segment
 
 # What shows a parameter: (what the trace must lack for this advice, advice). The first one that fits is given.
 THROUGH = ("pop", "insert until the tip is through")
@@ -60,7 +61,16 @@ def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fi
 
 def _drifting(fit: Fit) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
-    if slow > DRIFTING * other and slow > SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
+    if slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
+        return
+    trace = fit.misfit.trace
+    if not AirNoise(trace, segment(trace)).allows(*fit.noise.most_likely()):
+        yield (
+            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
+            "sensor, whose force in air does not show it: the model does not explain the trace. Do not trust the "
+            "intervals."
+        )
+    else:
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "
             "interval of a surface is then too narrow. If the model is right (see punctura rivals), this is a drift "

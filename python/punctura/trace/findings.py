@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.air import baseline, smooth
 from punctura.trace.samples import gaps_and_spikes, nothing_seen
-from punctura.trace.segment import Segments, baseline, segment, smooth
+from punctura.trace.segment import Segments, segment
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -77,16 +78,12 @@ def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
         return
     height, noise = float(np.max(np.abs(trace.force))), noise_of(trace.force)
     before = trace.force[: segments.contact + 1]
-    surface = trace.depth[segments.contact]
-    last_out = next((s for s in reversed(segments.strokes) if s.kind == "out"), None)
-    if last_out is not None:
-        free = np.flatnonzero(trace.depth[last_out.start :] < surface) + last_out.start
-        if len(free) >= 5:
-            after = float(np.median(trace.force[free[len(free) // 2 :]])) - float(np.median(before))
-            if abs(after) > max(_SMALL * height, 5 * noise):
-                text = f"the force is {after:+.3g} N different after the needle has left the tissue"
-                yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
-                return
+    if segments.exit is not None:
+        after = float(np.median(trace.force[segments.exit :])) - float(np.median(before))
+        if abs(after) > max(_SMALL * height, 5 * noise):
+            text = f"the force is {after:+.3g} N different after the needle has left the tissue"
+            yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
+        return  # the zero is known at both ends
     if len(before) >= 30:
         where = np.linspace(-1, 1, len(before))
         slope = float(where @ (before - before.mean()) / (where @ where))

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from punctura.trace.segment import Pop, calm_noise, contact_sample, segment
+from punctura.trace.air import calm_noise, contact_sample
+from punctura.trace.segment import Pop, segment
 from punctura.trace.trace import Trace, TraceError
 
 LOWER, UPPER = 0.2, 0.8  # of a rise: the gradient is that of the part between them

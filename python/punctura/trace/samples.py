@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from punctura.trace.segment import smooth
+from punctura.trace.air import smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 

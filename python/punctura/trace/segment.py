@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.air import contact_sample, exit_sample
 from punctura.trace.trace import Trace
 from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 
@@ -41,9 +42,10 @@ class Stroke:
 class Segments:
     """What happens in a trace. Indices count its samples."""
 
-    contact: int | None  # the last sample before the force rises; None if the trace begins in contact
+    contact: int | None  # the last sample before the force leaves the air; None if the trace begins in contact
     pops: tuple[Pop, ...]
     strokes: tuple[Stroke, ...]
+    exit: int | None = None  # the first sample in air after the last withdrawal; None if the trace does not end there
 
     @property
     def holds(self) -> tuple[Stroke, ...]:
@@ -66,57 +68,12 @@ def segment(trace: Trace) -> Segments:
     """Finds contact, pops, holds, reversals and insertions of a trace."""
     strokes = _strokes(trace)
     first = next((stroke for stroke in strokes if stroke.kind == "in"), None)
-    contact = contact_sample(trace.depth[: first.end], trace.force[: first.end]) if first else None
+    moving = [stroke for stroke in strokes if stroke.kind != "hold"]
+    out = exit_sample(trace.depth, trace.force) if first and moving[-1].kind == "out" else None
+    after = None if out is None else trace.force[out:]
+    contact = contact_sample(trace.depth[: first.end], trace.force[: first.end], after) if first else None
     pops = [pop for pop in _pops(trace, strokes) if contact is None or pop.start > contact]
-    return Segments(contact, tuple(pops), tuple(strokes))
-
-
-def smooth(values: Array, width: int) -> Array:
-    """Moving average over an odd number of samples. Both ends repeat their last value."""
-    half = max(width // 2, 0)
-    if half == 0:
-        return values
-    padded = np.concatenate((np.full(half, values[0]), values, np.full(half, values[-1])))
-    total = np.concatenate(([0.0], np.cumsum(padded)))
-    return np.asarray((total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1))
-
-
-def baseline(force: Array) -> float:
-    """The force before contact, N: the median of the first samples."""
-    return float(np.median(force[: max(5, len(force) // 50)]))
-
-
-def contact_sample(depth: Array, force: Array) -> int | None:
-    """The last sample before the force rises for good. None if the force rises from the first samples on.
-
-    Among all depths of contact c, the one with which a + b (d - c) + e (d - c)^2 behind c, and a before it, fits best.
-    """
-    calm, zero = smooth(force, max(1, len(force) // 200) | 1), baseline(force)
-    height = float(np.max(np.abs(calm - zero)))
-    risen = np.abs(calm - zero) > max(0.5 * height, 4 * calm_noise(force))
-    if height == 0 or not risen.any():
-        return None
-    top = int(np.argmax(risen)) + 1
-    used = np.unique(np.linspace(0, top - 1, min(top, 400)).astype(int))
-    tried = used[:: max(1, len(used) // 100)]
-    best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
-    return best if best >= 5 else None
-
-
-def _hinge_errors(depth: Array, force: Array, contacts: Array) -> Array:
-    """Sum of the squared errors of the best hinge for each depth of contact (c,), N^2."""
-    behind = np.maximum(depth - contacts[:, None], 0) / max(float(np.ptp(depth)), 1e-12)
-    shapes = np.stack((np.ones_like(behind), behind, behind**2), axis=1)  # (c, 3, n)
-    gram = shapes @ shapes.transpose(0, 2, 1) + 1e-12 * len(depth) * np.eye(3)
-    aim = shapes @ force
-    best = np.linalg.solve(gram, aim[:, :, None])[:, :, 0]
-    return np.asarray(np.sum((force - np.einsum("ckn,ck->cn", shapes, best)) ** 2, axis=1))
-
-
-def calm_noise(force: Array) -> float:
-    """Noise of the force, N: from sample to sample, and over the first samples if that is more."""
-    first = force[: max(5, len(force) // 50)]
-    return max(noise_of(force), 1.4826 * float(np.median(np.abs(first - np.median(first)))))
+    return Segments(contact, tuple(pops), tuple(strokes), out)
 
 
 def _pops(trace: Trace, strokes: list[Stroke]) -> list[Pop]:

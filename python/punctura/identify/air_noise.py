@@ -1,0 +1,89 @@
+"""What the air before the contact and behind the exit tells about the sensor: its zero, its noise, whether it drifted.
+
+What the sensor does not do in air is not blamed on it in tissue.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.identify.slow_noise import Mixture
+from punctura.trace import Segments, Stroke, Trace
+from punctura.trace.air import spread
+
+Array = NDArray[np.float64]
+
+ZERO_NOISES, ZERO_SHARE = 8.0, 0.01  # standard deviations in air and share of the peak, by which the zero may be wrong
+SHORT, STEEP = 0.005, 95  # share of the range of the depths, that is a way; per cent of the ways are less steep
+RELAXED = 0.05  # of the peak: a force that falls by more in a rest relaxes
+FEWEST, MOST = 5, 100  # samples at one end: fewer tell nothing, more are thinned
+UNLIKELY = 16.3  # -2 ln of a likelihood ratio, beyond which a noise is excluded: chi-squared of 3, 1 in 1000
+
+
+class AirNoise:
+    """The measured force in air: an unknown zero, and noise. A noise that it excludes explains nothing in tissue."""
+
+    def __init__(self, trace: Trace, segments: Segments) -> None:
+        n = len(trace)
+        before = np.arange(0 if segments.contact is None else segments.contact + 1)
+        after = np.arange(n if segments.exit is None else segments.exit, n)
+        ends = [rows[:: -(-len(rows) // MOST)] for rows in (before, after) if len(rows) >= FEWEST]
+        self._rows = np.concatenate(ends) if ends else np.arange(0)
+        self._force = trace.force[self._rows]
+        levels = [float(np.median(trace.force[rows])) for rows in ends]
+        self._change = abs(levels[1] - levels[0]) if len(levels) == 2 else None
+        self._noise = max(spread(trace.force[rows]) for rows in ends) if ends else np.inf
+        self._peak = float(np.max(np.abs(trace.force - (levels or [0.0])[0])))
+        self._zero = float(np.mean(levels)) if levels else 0.0
+        self._steepest = _steepest(trace)
+        self.relaxes = self._change is not None and any(self._relaxes(trace, hold) for hold in segments.holds)
+
+    @property
+    def zero(self) -> tuple[float, float]:
+        """The least and the greatest zero of the force, N, that air at both ends allows; open if it is at one end."""
+        if self._change is None:
+            return -np.inf, np.inf
+        away = max(ZERO_NOISES * self._noise, ZERO_SHARE * self._peak) + self._change
+        return self._zero - away, self._zero + away
+
+    def _relaxes(self, trace: Trace, hold: Stroke) -> bool:
+        """Whether the force falls in this rest by more than noise, the sensor's change in air and motion explain."""
+        force, depth = trace.force[hold.start : hold.end], trace.depth[hold.start : hold.end]
+        part = len(force) // 5
+        if part < 3:
+            return False
+        starts = (part // 2, 2 * part, len(force) - part)
+        first, middle, last = (float(np.median(force[at : at + part])) for at in starts)
+        fell = min(first - last, 2.5 * (first - middle))  # it begins with the rest
+        moved = float(np.ptp(depth[part // 2 :]))
+        assert self._change is not None
+        return fell > max(RELAXED * self._peak, ZERO_NOISES * self._noise, 3 * self._change) + self._steepest * moved
+
+    def allows(self, mixture: Mixture, variance: float) -> bool:
+        """Whether this noise, of this variance, N^2, is likely enough in air."""
+        m = len(self._force)
+        if m < 2 * FEWEST:
+            return True
+        lags = np.abs(self._rows[:, None] - self._rows)
+        shape = mixture.share * np.exp(-lags / mixture.length) + (1 - mixture.share) * np.eye(m)
+        misfit, least = self._misfit(shape, variance), self._misfit(np.eye(m), None)
+        return misfit - least <= UNLIKELY
+
+    def _misfit(self, shape: Array, variance: float | None) -> float:
+        """-2 ln of the restricted likelihood for the correlations `shape` (m, m); variance None: the most likely."""
+        lower = np.linalg.cholesky(shape)
+        one, force = np.linalg.solve(lower, np.column_stack((np.ones(len(shape)), self._force))).T
+        left = force - one * float(one @ force) / float(one @ one)
+        m, squares = len(shape), float(left @ left)
+        v = max(squares / (m - 1) if variance is None else variance, 1e-300)
+        fixed = 2 * float(np.log(np.diag(lower)).sum()) + float(np.log(one @ one))
+        return fixed + (m - 1) * float(np.log(v)) + squares / v
+
+
+def _steepest(trace: Trace) -> float:
+    """How steep the force is against the depth, N/m, over ways that count."""
+    size = max(1, len(trace) // 100)
+    ways, forces = (np.abs(column[size:] - column[:-size]) for column in (trace.depth, trace.force))
+    far = ways > SHORT * float(np.ptp(trace.depth))
+    return float(np.percentile(forces[far] / ways[far], STEEP)) if far.any() else np.inf

@@ -1,0 +1,124 @@
+"""The air before the tissue and behind it: it tells the contact, the zero of the force, and whether the zero drifted.
+
+Contact is the first departure of the force from the air, also if a soft layer resists before a firm wall.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.trace.turns import noise_of
+
+Array = NDArray[np.float64]
+
+FEWEST = 5  # samples of air
+LASTS = 3  # samples, that a departure lasts at least
+NOISES, SHARE = 8.0, 0.03  # a departure is larger than so many times the noise, and this share of the greatest force
+FIRM = 0.5  # of the greatest force: so much only tissue resists
+NEAR = 0.02  # of the range of the depths
+AROUND = 5  # times the samples of the first rise: the samples before it in which the contact is looked for
+
+
+def smooth(values: Array, width: int) -> Array:
+    """Moving average over an odd number of samples. Both ends repeat their last value."""
+    half = max(width // 2, 0)
+    if half == 0:
+        return values
+    padded = np.concatenate((np.full(half, values[0]), values, np.full(half, values[-1])))
+    total = np.concatenate(([0.0], np.cumsum(padded)))
+    return np.asarray((total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1))
+
+
+def baseline(force: Array) -> float:
+    """The force before contact, N: the median of the first samples."""
+    return float(np.median(force[: _first(force)]))
+
+
+def calm_noise(force: Array) -> float:
+    """Noise of the force, N: from sample to sample, and over the first samples if that is more."""
+    return max(noise_of(force), spread(force[: _first(force)]))
+
+
+def spread(values: Array) -> float:
+    """Their standard deviation, without regard to spikes."""
+    return 1.4826 * float(np.median(np.abs(values - np.median(values))))
+
+
+def _first(force: Array) -> int:
+    return max(FEWEST, len(force) // 50)
+
+
+def exit_sample(depth: Array, force: Array) -> int | None:
+    """The first sample in air after the last withdrawal; None if the needle does not come out.
+
+    It is out if it ends at a depth where it was in air on the way in, and if the force did not come to its last level
+    deep in the tissue.
+    """
+    force = _without_spikes(force)
+    entered, left = _departure(force), _departure(force[::-1])
+    if entered is None or left is None:
+        return None
+    surface, out = float(depth[entered[0]]), len(force) - 1 - left[0]
+    half_way = 0.5 * (surface + float(depth.max()))
+    is_out = depth[-1] <= surface + NEAR * float(np.ptp(depth)) and depth[out] < half_way
+    return out if is_out and len(force) - out >= FEWEST else None
+
+
+def contact_sample(depth: Array, force: Array, after: Array | None = None) -> int | None:
+    """The last sample before the force leaves the air. None if the force rises from the first samples on.
+
+    depth, force: up to the end of the first insertion. after: the forces in air behind the tissue, N, if there are any.
+    Among all depths of contact c, the one with which a + b (d - c) + e (d - c)^2 behind c, and a before it, fits best
+    around the first departure.
+    """
+    force = _without_spikes(force)
+    change = 0.0 if after is None else float(np.median(after)) - baseline(force)
+    noise = 0.0 if after is None else spread(after)
+    for share in (SHARE, FIRM):  # a drift in air may look like a first departure that begins at once
+        found = _departure(force, change, noise, share)
+        if found is None:
+            continue
+        calm, risen = found
+        top = min(risen + max(LASTS, risen - calm), len(force))
+        first = max(0, calm - AROUND * (top - calm))
+        used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
+        tried = used[:: max(1, len(used) // 100)]
+        best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
+        if best >= FEWEST:
+            return best
+    return None
+
+
+def _without_spikes(force: Array) -> Array:
+    padded = np.concatenate((force[:1], force, force[-1:]))
+    return np.asarray(np.median(np.stack((padded[:-2], force, padded[2:])), axis=0))
+
+
+def _departure(force: Array, change: float = 0.0, noise: float = 0.0, share: float = SHARE) -> tuple[int, int] | None:
+    """The last sample within the noise of the first ones, and a sample that is well beyond it; None if there is none.
+
+    change: of the zero over the trace, N, which is no departure. share: of the greatest force, that is beyond noise.
+    """
+    away = np.abs(smooth(force, max(1, len(force) // 200) | 1) - baseline(force))
+    height, noise = float(away.max()), max(noise, calm_noise(force))
+    slow = abs(change) * np.linspace(0, 1, len(force))
+    risen = away > max(NOISES * noise, share * height) + slow
+    lasting = np.flatnonzero(np.convolve(risen, np.ones(LASTS), "valid") == LASTS)
+    if len(lasting) == 0:
+        lasting = np.flatnonzero(away > max(FIRM * height, 0.5 * NOISES * noise))
+    if height == 0 or len(lasting) == 0:
+        return None
+    at = int(lasting[0])
+    calm = np.flatnonzero(away[:at] < 2 * noise + slow[:at])
+    return (int(calm[-1]) if len(calm) else 0), at + 1
+
+
+def _hinge_errors(depth: Array, force: Array, contacts: Array) -> Array:
+    """Sum of the squared errors of the best hinge for each depth of contact (c,), N^2."""
+    behind = np.maximum(depth - contacts[:, None], 0) / max(float(np.ptp(depth)), 1e-12)
+    shapes = np.stack((np.ones_like(behind), behind, behind**2), axis=1)  # (c, 3, n)
+    gram = shapes @ shapes.transpose(0, 2, 1) + 1e-12 * len(depth) * np.eye(3)
+    aim = shapes @ force
+    best = np.linalg.solve(gram, aim[:, :, None])[:, :, 0]
+    return np.asarray(np.sum((force - np.einsum("ckn,ck->cn", shapes, best)) ** 2, axis=1))

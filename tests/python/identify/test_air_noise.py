@@ -1,0 +1,64 @@
+"""A force that falls in a rest and is gone in air is tissue, also where the model is not the right one."""
+
+import numpy as np
+import pytest
+from punctura.identify.air_noise import AirNoise
+from punctura.identify.criteria import Rule, candidate
+from punctura.identify.fit import Misfit, fit
+from punctura.identify.model import Model, extensions
+from punctura.identify.parameters import Parameters, default_coupling, default_membrane
+from punctura.identify.slow_noise import Mixture
+from punctura.trace import Trace, segment
+from traces import NEEDLE, force_of, motion
+
+NOISE = 8e-3
+
+
+def silicone(drift=0.0):
+    """A force that no K06 wall has: it rises as a square, is cut, and relaxes in the rest. Every 20th sample."""
+    time, depth = motion(hold=4.0)
+    time, depth = time[::10], depth[::10]
+    grown = np.where(depth > 4e-3, ((depth - 4e-3) / 11e-3) ** 2, 0.0)
+    out = np.arange(len(depth)) > np.argmax(depth) + 40
+    rest = np.clip(time - time[int(np.argmax(depth))], 0, None)
+    force = 4 * grown * np.where(out, -0.3, 0.6 + 0.4 * np.exp(-rest / 0.8))
+    force += drift * time / time[-1] + NOISE * np.random.default_rng(1).normal(size=len(time))
+    return Trace(depth, force, time)
+
+
+def test_a_relaxation_is_preferred_where_the_air_excludes_a_drift():
+    made = silicone()
+    rule, row = Rule(made, segment(made)), default_membrane()
+    assert rule.air.relaxes
+    row[:5] = [4e-3, 600, 0.3, 0.2, 0.5e-3]
+    start = Parameters(NEEDLE, np.array([row]), default_coupling(600))
+    misfit = Misfit(made, start, zero=rule.air.zero)
+    relaxation = next(one for one in extensions(NEEDLE) if one.name == "relaxation")
+    small, large = Model(1), Model(1, (relaxation,))
+    one = candidate("K06", small, fit(misfit, small.names, start))
+    two = candidate("relaxation", large, fit(misfit, large.names, large.start(one.fit.parameters)))
+    assert one.fit.rmse > 10 * NOISE  # neither is right
+    assert rule.prefers(two, one) and not rule.prefers(one, two)
+    assert max(np.abs(rule.air.zero)) < 0.1
+    assert all(abs(fitted.fit.parameters.get("offset")) < 0.1 for fitted in (one, two))
+
+
+def test_a_sensor_that_drifts_in_air_may_be_the_reason():
+    made = silicone(drift=1.2)
+    assert not AirNoise(made, segment(made)).relaxes
+
+
+def test_a_rest_in_which_nothing_changes_shows_no_relaxation():
+    time, depth = motion(hold=2.0)
+    force = force_of(depth) + NOISE * np.random.default_rng(2).normal(size=len(time))
+    made = Trace(depth, force, time)
+    assert not AirNoise(made, segment(made)).relaxes
+
+
+@pytest.mark.parametrize(("slow", "allowed"), [(2.0, True), (40.0, False)])
+def test_the_air_bounds_a_slow_noise(slow, allowed):
+    made = silicone()
+    variance = NOISE**2 * (1 + slow**2)
+    air = AirNoise(made, segment(made))
+    assert air.allows(Mixture(0.0, 1.0), NOISE**2)
+    assert air.allows(Mixture(slow**2 / (1 + slow**2), 100.0), variance) == allowed
