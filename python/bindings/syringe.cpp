@@ -22,7 +22,7 @@ struct GivenPlunger : Plunger, OneThread {
   GivenPlunger(const Syringe& syringe, const Coupling& coupling, double period)
       : Plunger(syringe, coupling, period), given_coupling(coupling), period(period) {}
   std::vector<std::byte> save() const { return save_state<Plunger>(*this); }
-  bool load(std::span<const std::byte> state) { return load_state<Plunger>(*this, state); }
+  bool load(std::span<const std::byte> bytes) { return load_state<Plunger>(*this, bytes); }
   nb::tuple arguments() const { return nb::make_tuple(syringe(), given_coupling, period); }
 };
 
@@ -102,9 +102,9 @@ void bind_syringe(nb::module_& m) {
           "left", [](const GivenPlunger& p) { return p.left(); },
           "Volume that left through the needle so far, m^3; negative if more came back")
       .def_prop_ro(
-          "liquid", [](const GivenPlunger& p) { return p.state().contents.liquid; }, "In the barrel now, m^3")
+          "liquid", [](const GivenPlunger& p) { return p.state.contents.liquid; }, "In the barrel now, m^3")
       .def_prop_ro(
-          "air", [](const GivenPlunger& p) { return p.state().contents.air; },
+          "air", [](const GivenPlunger& p) { return p.state.contents.air; },
           "In the barrel now, m^3 at the pressure of the atmosphere")
       .def_prop_ro("phase", [](const GivenPlunger& p) { return p.phase(); });
 

@@ -25,19 +25,13 @@ template <typename Scalar_, typename Storage = HeapStorage>
 class NeedleSyringe {
  public:
   using Scalar = Scalar_;
+  BasicPlunger<Scalar> plunger;
 
   /// opening: X, length of the needle's slanted face, m. layers: from the front to the back.
-  NeedleSyringe(const BasicPlunger<Scalar>& plunger, Scalar opening, std::span<const LayerOutlets<Scalar>> layers)
-      : plunger_(plunger), opening_(opening) {
+  NeedleSyringe(const BasicPlunger<Scalar>& of, Scalar opening, std::span<const LayerOutlets<Scalar>> layers)
+      : plunger(of), opening_(opening) {
     layers_.reserve(layers.size());
     for (const auto& layer : layers) layers_.emplace_back(layer);
-  }
-
-  void reset() noexcept { plunger_.reset(); }
-  /// Continues with the contents and the plunger of an equal syringe. A syringe with other contents, another barrel
-  /// or another coupling starts full, where the thumb is.
-  void resume(const NeedleSyringe& previous) noexcept {
-    if (plunger_.same_syringe(previous.plunger_)) plunger_.set_state(previous.plunger_.state());
   }
 
   /// One tick, after the insertion's. thumb: depth of the thumb, m. Returns the force on the thumb, N.
@@ -51,12 +45,12 @@ class NeedleSyringe {
       const Scalar U = in ? layer.thickness / insertion.cos_beta(layer.membrane) : layer.thickness;  // K06 (17)
       opening.pass({in ? tick.depth : Scalar(0), U, layer.inside, layer.behind});
     }
-    return plunger_.step(thumb, opening.outlet());
+    return plunger.step(thumb, opening.outlet());
   }
 
-  static void archive(auto& self, auto& state) { BasicPlunger<Scalar>::archive(self.plunger_, state); }
+  static void archive(auto& self, auto& state) { BasicPlunger<Scalar>::archive(self.plunger, state); }
   void describe(auto& parameters) const {
-    plunger_.describe(parameters);
+    plunger.describe(parameters);
     parameters.numbers(opening_);
     for (const auto& layer : layers_) {
       parameters.index(layer.membrane, 0);
@@ -65,10 +59,7 @@ class NeedleSyringe {
     }
   }
 
-  const BasicPlunger<Scalar>& plunger() const noexcept { return plunger_; }
-
  private:
-  BasicPlunger<Scalar> plunger_;
   Scalar opening_;
   typename Storage::template Membranes<LayerOutlets<Scalar>> layers_;
 };

@@ -32,7 +32,6 @@ class FixedVector {
     reserve(size_ + 1);
     return *std::construct_at(begin() + size_++, std::forward<Args>(args)...);
   }
-  void swap(FixedVector& other) noexcept { std::swap(*this, other); }
 
   std::size_t size() const noexcept { return size_; }
   T* begin() noexcept { return std::launder(reinterpret_cast<T*>(bytes_)); }

@@ -43,7 +43,8 @@ class AnyRival {
                              RivalRun<KelvinVoigt>, RivalRun<MahvashDupont>, RivalRun<Dahl>, RivalRun<StickSlip>,
                              RivalRun<SignOfVelocity>>;
 
-  explicit AnyRival(const Kinds& kind) noexcept : kind_(kind) {}
+  Kinds kind;
+  explicit AnyRival(const Kinds& of) noexcept : kind(of) {}
 
   /// The rival of this name with its default numbers; empty for an unknown name.
   static std::optional<AnyRival> named(std::string_view name) {
@@ -60,39 +61,25 @@ class AnyRival {
     }(std::make_index_sequence<std::variant_size_v<Kinds>>());
   }
 
-  auto visit(auto&& act) { return std::visit(act, kind_); }
-  auto visit(auto&& act) const { return std::visit(act, kind_); }
+  auto visit(auto&& act) { return std::visit(act, kind); }
+  auto visit(auto&& act) const { return std::visit(act, kind); }
 
   /// See RivalRun::step().
   double step(double depth, double velocity, double period) noexcept {
-    return std::visit([&](auto& run) noexcept { return run.step(depth, velocity, period); }, kind_);
+    return std::visit([&](auto& run) noexcept { return run.step(depth, velocity, period); }, kind);
   }
   /// An untouched layer.
   void reset() noexcept {
-    std::visit([](auto& run) noexcept { run.state = {}; }, kind_);
-  }
-  /// Takes over the state of another rival of the same kind. Another kind begins with an untouched layer.
-  void resume(const AnyRival& previous) noexcept {
-    std::visit(
-        [&]<typename Run>(Run& run) noexcept {
-          if (const auto* old = std::get_if<Run>(&previous.kind_))
-            run.state = old->state;
-          else
-            run.state = {};
-        },
-        kind_);
+    std::visit([](auto& run) noexcept { run.state = {}; }, kind);
   }
 
   static void archive(auto& self, auto& state) {
-    std::visit([&](auto& run) { std::remove_cvref_t<decltype(run.state)>::archive(run.state, state); }, self.kind_);
+    std::visit([&](auto& run) { std::remove_cvref_t<decltype(run.state)>::archive(run.state, state); }, self.kind);
   }
   void describe(auto& parameters) const {
-    parameters.index(kind_.index(), 0);
-    std::visit([&](const auto& run) { describe_numbers(run.rival, parameters); }, kind_);
+    parameters.index(kind.index(), 0);
+    std::visit([&](const auto& run) { describe_numbers(run.rival, parameters); }, kind);
   }
-
- private:
-  Kinds kind_;
 };
 static_assert(std::is_trivially_copyable_v<AnyRival>);
 

@@ -36,8 +36,12 @@ class RivalProxy {
     tick_.phase = state_.phase;
   }
   bool same_place(const RivalProxy& other) const noexcept { return a_ == other.a_ && n_ == other.n_; }
+  /// Another rival than before begins with an untouched layer.
   void resume(const RivalProxy& previous) noexcept {
-    rival_.resume(previous.rival_);
+    rival_.visit([&]<typename Run>(Run& run) noexcept {
+      const Run* old = std::get_if<Run>(&previous.rival_.kind);
+      run.state = old ? old->state : Run{}.state;
+    });
     state_ = previous.state_;
     tick_ = previous.tick_;
   }

@@ -67,13 +67,15 @@ class BasicForceLimiter {
   static constexpr auto longest_hold = static_cast<Lane<Scalar>>(GateLimits{}.deadline);
   static constexpr Lane<Scalar> unknown_time = -1;  ///< `elapsed` of a tick whose time is not known: one period counts
 
-  /// What it remembers beside the budget: the ramp, the motors' temperature, the force that the device holds.
+  /// What it remembers beside the budget: the ramp, the motors' temperature, the force that the device holds. A limiter
+  /// with the state of another one goes on, with its own limits.
   struct State {
     Scalar gain{0};         ///< of the ramp
     Scalar cool{1};         ///< the factor by which warm motors reduce the ceiling, 0 to 1. 1 is no reduction
     Scalar held_square{0};  ///< the square of the force that the device holds since the last tick, N^2
     LimitCounters counters{};
   };
+  State state{};
 
   BasicForceLimiter(const ForceLimits& limits, const Scalar& period) noexcept
       : max_force_(static_cast<Scalar>(limits.max_force)),
@@ -96,19 +98,15 @@ class BasicForceLimiter {
   /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
   void reset(const Truth& lanes = Truth(true)) noexcept {
     using namespace lane;
-    state_.gain = select(lanes, Scalar(0), state_.gain);
+    state.gain = select(lanes, Scalar(0), state.gain);
   }
   /// Forgets its state in these lanes.
   void restart(const Truth& lanes) noexcept {
     using namespace lane;
     reset(lanes);
-    state_.cool = select(lanes, Scalar(1), state_.cool);
-    state_.held_square = select(lanes, Scalar(0), state_.held_square);
+    state.cool = select(lanes, Scalar(1), state.cool);
+    state.held_square = select(lanes, Scalar(0), state.held_square);
   }
-
-  const State& state() const noexcept { return state_; }
-  /// Goes on after another limiter, with its own limits. The budget: set_spent().
-  void set_state(const State& state) noexcept { state_ = state; }
 
   /// One tick. wanted: the force of the model times the force scale, N, finite. Returns the force for the device, N.
   /// motor_temperature: 0 to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is
@@ -117,20 +115,20 @@ class BasicForceLimiter {
               const Scalar& elapsed = Scalar(unknown_time)) noexcept {
     using namespace lane;
     count(elapsed);
-    state_.gain = min(Scalar(1), Scalar(state_.gain + ramp_step_));
-    act(Limit::ramp, state_.gain < 1 && !wanted.isZero());
-    Vector force = state_.gain * wanted;
+    state.gain = min(Scalar(1), Scalar(state.gain + ramp_step_));
+    act(Limit::ramp, state.gain < 1 && !wanted.isZero());
+    Vector force = state.gain * wanted;
 
     feel(motor_temperature);
     ceiling_ = permitted();
-    state_.held_square = force.squaredNorm();
+    state.held_square = force.squaredNorm();
     // Most forces are far enough below the ceiling that rounding cannot matter. They need no root. Denormal squares are
     // too coarse for this comparison.
     const Scalar below = Lane<Scalar>(0.999) * ceiling_ * ceiling_;
-    const Truth close = !(state_.held_square < below && below > smallest_square);
+    const Truth close = !(state.held_square < below && below > smallest_square);
     if (any(close)) {
       force = clamped(force, close);
-      state_.held_square = force.squaredNorm();
+      state.held_square = force.squaredNorm();
     }
     return force;
   }
@@ -147,15 +145,15 @@ class BasicForceLimiter {
 
   Scalar ceiling() const noexcept { return ceiling_; }  ///< the largest force that the last tick permitted, N
   Acting limit() const noexcept { return limit_; }      ///< the limit that reduced the force of the last tick
-  Scalar gain() const noexcept { return state_.gain; }  ///< gain of the ramp, 0 to 1
-  const LimitCounters& counters() const noexcept { return state_.counters; }
+  Scalar gain() const noexcept { return state.gain; }   ///< gain of the ramp, 0 to 1
+  const LimitCounters& counters() const noexcept { return state.counters; }
 
   const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
   /// Sets how much the motors of the device have given before, N^2 s. See ForceBudget::spent.
   void set_spent(const Scalar& spent) noexcept { budget_.set_spent(spent); }
 
   static void archive(auto& self, auto& state) {
-    auto& own = self.state_;
+    auto& own = self.state;
     BasicForceBudget<Scalar>::archive(self.budget_, state);
     state.numbers(own.gain, own.cool, self.ceiling_, own.held_square);
     state.require(own.gain >= 0 && own.gain <= 1 && own.cool >= 0 && own.cool <= 1 && own.held_square >= 0);
@@ -174,18 +172,18 @@ class BasicForceLimiter {
   /// the force on and off. NaN reduces it to 0.
   void feel(const Scalar& temperature) noexcept {
     using namespace lane;
-    const Scalar cooler = min(Scalar(1), Scalar(state_.cool + cooling_step_));
+    const Scalar cooler = min(Scalar(1), Scalar(state.cool + cooling_step_));
     const Truth cold = temperature <= warm_motor_;
-    state_.cool = cooler;
+    state.cool = cooler;
     if (!all(cold))
-      state_.cool = select(cold, cooler, min(cooler, max(Scalar(0), Scalar((1 - temperature) / (1 - warm_motor_)))));
+      state.cool = select(cold, cooler, min(cooler, max(Scalar(0), Scalar((1 - temperature) / (1 - warm_motor_)))));
   }
 
   /// A force whose norm is at most the ceiling, with the direction of `force`. close: where it may be larger.
   Vector clamped(const Vector& force, const Truth& close) noexcept {
     using namespace lane;
     const Scalar norm = force.stableNorm();
-    const Truth over = close && !(norm <= ceiling_), warm = state_.cool < 1, spent = ceiling_ < max_force_;
+    const Truth over = close && !(norm <= ceiling_), warm = state.cool < 1, spent = ceiling_ < max_force_;
     act(Limit::temperature, over && warm);
     act(Limit::continuous, over && !warm && spent);
     act(Limit::peak, over && !warm && !spent);
@@ -194,10 +192,10 @@ class BasicForceLimiter {
 
   Scalar permitted() const noexcept {
     using namespace lane;
-    if (all(budget_.spent() <= full_until_)) return state_.cool * full_;  // the same as below, to the bit
+    if (all(budget_.spent() <= full_until_)) return state.cool * full_;  // the same as below, to the bit
     const Scalar share = min(Scalar(1), Scalar(2 * budget_.left()));
     const Scalar wanted = steady_ + share * (max_force_ - steady_);
-    return state_.cool * min(wanted, sqrt(budget_.permitted_square(hold_, budget_.spent())));
+    return state.cool * min(wanted, sqrt(budget_.permitted_square(hold_, budget_.spent())));
   }
 
   /// Counts the force of the previous tick for the time that the device held it.
@@ -206,9 +204,9 @@ class BasicForceLimiter {
     const Truth known = elapsed >= 0 && elapsed <= std::numeric_limits<Lane<Scalar>>::max();
     // Before the first tick of a run no time has passed. A period of rest for each run would add up over many runs,
     // and so would a period of rest for each wrong time stamp.
-    const Truth no_time = !known && !(elapsed == unknown_time) && state_.held_square == 0;
-    budget_.spend(state_.held_square, select(known, elapsed, select(no_time, Scalar(0), period_)));
-    state_.held_square = Scalar(0);
+    const Truth no_time = !known && !(elapsed == unknown_time) && state.held_square == 0;
+    budget_.spend(state.held_square, select(known, elapsed, select(no_time, Scalar(0), period_)));
+    state.held_square = Scalar(0);
     limit_ = {};
   }
 
@@ -220,7 +218,7 @@ class BasicForceLimiter {
       using All = LimitCounters;
       constexpr std::uint64_t All::* of[] = {nullptr, &All::ramp, &All::peak, &All::continuous, &All::temperature};
       limit_ = limit;
-      ++(state_.counters.*of[static_cast<std::size_t>(limit)]);
+      ++(state.counters.*of[static_cast<std::size_t>(limit)]);
     }
   }
 
@@ -236,7 +234,6 @@ class BasicForceLimiter {
   Scalar hold_, ramp_step_, cooling_step_;
   Scalar ceiling_;
   Acting limit_{};
-  State state_{};
 };
 
 using ForceLimiter = BasicForceLimiter<double>;

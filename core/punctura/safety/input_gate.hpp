@@ -31,22 +31,18 @@ class BasicInputGate {
   using Vector = Vector3<Scalar>;
   using Time = std::conditional_t<OneNumber<Scalar>, double, Scalar>;
 
-  /// What it remembers of the last sample.
+  /// What it remembers of the last sample. A gate with the state of another one goes on, with its own limits.
   struct State {
     Mask<Scalar> started{};
     Time time{}, fresh_time{};
     std::uint64_t sequence = 0;
     Vector position{};
   };
+  State state{};
 
   /// period: T, s.
   BasicInputGate(const GateLimits& limits, const Time& period, bool axis_is_used) noexcept
       : limits_(limits), period_(period), axis_is_used_(axis_is_used) {}
-
-  void reset() noexcept { state_ = {}; }
-  const State& state() const noexcept { return state_; }
-  /// Goes on after the last sample of another gate, with its own limits.
-  void set_state(const State& state) noexcept { state_ = state; }
 
   /// Whether a dead-man button is held, or none is needed. If not, there is no force, but this is no fault.
   bool held(const DeviceSample& s) const noexcept {
@@ -65,15 +61,15 @@ class BasicInputGate {
       if (!axis.allFinite()) return Fault::non_finite_input;
       if (!(std::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;
     }
-    if (state_.started) {
-      if (!(s.time >= state_.time)) return Fault::clock;
+    if (state.started) {
+      if (!(s.time >= state.time)) return Fault::clock;
       if (!in_time(s.time)) return Fault::missed_deadline;
       if (!within_reach(position, s.time)) return Fault::position_jump;
     }
-    if (!state_.started || s.sequence != state_.sequence) state_.fresh_time = s.time;
-    if (!(s.time - state_.fresh_time <= limits_.stale)) return Fault::stale_sample;
+    if (!state.started || s.sequence != state.sequence) state.fresh_time = s.time;
+    if (!(s.time - state.fresh_time <= limits_.stale)) return Fault::stale_sample;
 
-    state_ = {true, s.time, state_.fresh_time, s.sequence, position};
+    state = {true, s.time, state.fresh_time, s.sequence, position};
     return Fault::none;
   }
 
@@ -81,17 +77,17 @@ class BasicInputGate {
   Mask<Scalar> step(const Vector& position, const Time& time) noexcept
     requires Lanes<Scalar>
   {
-    const auto good = is_place(position) && (!state_.started || (in_time(time) && within_reach(position, time)));
-    state_ = {Mask<Scalar>(true), time, time, 0, position};
+    const auto good = is_place(position) && (!state.started || (in_time(time) && within_reach(position, time)));
+    state = {Mask<Scalar>(true), time, time, 0, position};
     return good;
   }
   /// The next sample of these lanes is their first.
-  void restart(const Mask<Scalar>& lanes) noexcept { state_.started = state_.started && !lanes; }
+  void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.state_.started);
-    state.numbers(self.state_.time, self.state_.fresh_time, self.state_.position);
-    state.index(self.state_.sequence, std::numeric_limits<std::uint64_t>::max());
+    state.flag(self.state.started);
+    state.numbers(self.state.time, self.state.fresh_time, self.state.position);
+    state.index(self.state.sequence, std::numeric_limits<std::uint64_t>::max());
   }
   void describe(auto& parameters) const {
     parameters.numbers(limits_.max_speed, limits_.stale, limits_.deadline, limits_.axis_tolerance, period_);
@@ -100,19 +96,18 @@ class BasicInputGate {
   }
 
  private:
-  Mask<Scalar> in_time(const Time& time) const noexcept { return time - state_.time <= limits_.deadline; }
+  Mask<Scalar> in_time(const Time& time) const noexcept { return time - state.time <= limits_.deadline; }
   /// Whether a hand can have come here since the last reading. Two readings that arrive close together can be a period
   /// apart. Therefore the time is at least T.
   Mask<Scalar> within_reach(const Vector& position, const Time& time) const noexcept {
     using namespace lane;
-    const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, Time(time - state_.fresh_time)));
-    return (position - state_.position).squaredNorm() <= farthest * farthest;
+    const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, Time(time - state.fresh_time)));
+    return (position - state.position).squaredNorm() <= farthest * farthest;
   }
 
   GateLimits limits_;
   Time period_;
   bool axis_is_used_;
-  State state_{};
 };
 
 using InputGate = BasicInputGate<double>;

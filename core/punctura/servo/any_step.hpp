@@ -28,7 +28,7 @@ class AnyStep {
   virtual const Snapshot& step(const DeviceSample& sample) noexcept = 0;
   virtual void reset() noexcept = 0;
   /// Takes over the run of another step of the same period. A model of the same kind takes over what it can; one of
-  /// another kind begins afresh (ServoStepOf::resume_run).
+  /// another kind begins afresh.
   virtual void resume(AnyStep& previous) noexcept = 0;
 
   Guard& guard() noexcept { return *guard_; }
@@ -60,7 +60,7 @@ class AnyStep::Holder final : public AnyStep {
     if (previous.kind_ == kind_)
       step_.resume(static_cast<Holder&>(previous).step_);
     else
-      step_.resume_run(previous.guard());
+      guard().resume(previous.guard());
   }
 
  private:

@@ -65,6 +65,26 @@ class ServoGuard {
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
   void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
+  /// Takes over the run of another step of the same period, but not its model: limits, budget, state, fault and number
+  /// of the tick go on, and the force is faded. A syringe goes on if it has the same contents, barrel and coupling;
+  /// another one starts full, where the thumb is.
+  void resume(const ServoGuard& previous) noexcept {
+    if (syringe_ && previous.syringe_ && syringe_->plunger.same_syringe(previous.syringe_->plunger))
+      syringe_->plunger.state = previous.syringe_->plunger.state;
+    gate_.state = previous.gate_.state;
+    limiter_.state = previous.limiter_.state;
+    limiter_.set_spent(previous.spent());
+    state_ = previous.state_;
+    fault_ = previous.fault_;
+    tick_ = previous.tick_;
+    time_ = previous.time_;
+    commands_ = previous.commands_ | command_scene;
+    faded_force_ = previous.faded_force_;
+    thumb_force_ = previous.thumb_force_;
+    fade_ = 1;
+    fade_starts_ = true;
+  }
+
   /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
   /// step is active.
   Scalar thumb_force() const noexcept { return thumb_force_; }
@@ -90,27 +110,10 @@ class ServoGuard {
   void reset() noexcept {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
-    if (syringe_) syringe_->reset();
-    gate_.reset();
+    if (syringe_) syringe_->plunger.reset();
+    gate_.state = {};
     fault_ = Fault::none;
     state_ = ServoState::disarmed;
-  }
-
-  /// See ServoStepOf::resume().
-  void resume(const ServoGuard& previous) noexcept {
-    if (syringe_ && previous.syringe_) syringe_->resume(*previous.syringe_);
-    gate_.set_state(previous.gate_.state());
-    limiter_.set_state(previous.limiter_.state());
-    limiter_.set_spent(previous.spent());
-    state_ = previous.state_;
-    fault_ = previous.fault_;
-    tick_ = previous.tick_;
-    time_ = previous.time_;
-    commands_ = previous.commands_ | command_scene;
-    faded_force_ = previous.faded_force_;
-    thumb_force_ = previous.thumb_force_;
-    fade_ = 1;
-    fade_starts_ = true;
   }
 
   /// One tick with the force of this model.
@@ -186,7 +189,7 @@ class ServoGuard {
  private:
   /// The plunger's force on the thumb, scaled, and faded as the needle's force. Call it before faded().
   Scalar faded_thumb() noexcept {
-    const Scalar wanted = syringe_ ? force_scale_ * syringe_->plunger().force() : Scalar(0);
+    const Scalar wanted = syringe_ ? force_scale_ * syringe_->plunger.force() : Scalar(0);
     if (fade_starts_) thumb_offset_ = thumb_force_ - wanted;
     return wanted + fade_ * thumb_offset_;
   }
@@ -203,7 +206,7 @@ class ServoGuard {
   /// The plunger gives no force on the thumb in a fault.
   SyringeRecord syringe_record() const noexcept {
     if (!syringe_) return no_syringe;
-    const auto& plunger = syringe_->plunger();
+    const auto& plunger = syringe_->plunger;
     const auto wide = [](Scalar x) { return static_cast<double>(x); };
     return {wide(plunger.position()), fault_ == Fault::none ? wide(plunger.force()) : 0, wide(plunger.pressure()),
             wide(plunger.left())};
@@ -270,14 +273,12 @@ class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Inser
   /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
   ///
   /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
-  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
+  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards. After
+  /// ServoGuard::resume() alone the model begins afresh: no membrane gives force until the tip has been in front of it.
   void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     Guard::resume(previous);
   }
-  /// The same for a step with a model of another kind. This model begins afresh: no membrane gives force until the tip
-  /// has been in front of it. Limits, budget, state, fault and number of the tick go on, and the force is faded.
-  void resume_run(const Guard& previous) noexcept { Guard::resume(previous); }
 
   /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.
   const Snapshot& step(const DeviceSample& sample) noexcept { return Guard::step(insertion_, sample); }

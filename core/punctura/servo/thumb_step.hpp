@@ -21,7 +21,7 @@ class ThumbStep {
 
   /// Clears a fault. The thumb's next place is where the plunger starts.
   void reset() noexcept {
-    gate_.reset();
+    gate_.state = {};
     fault_ = Fault::none;
     started_ = false;
     active_ = false;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
@@ -60,15 +61,20 @@ class PositionConditioner {
 
   void reset() noexcept {
     for (auto& line : lines_) line.reset();
-    low_pass_.reset();
+    low_pass_.state = {};
     played_ = {};
   }
 
-  /// Takes over the samples of another conditioner of the same period. `previous` loses its history.
+  /// Takes over the samples of another conditioner of the same period. `previous` loses its history. A line with a
+  /// window of another size starts without samples.
   void resume(PositionConditioner& previous) noexcept {
-    for (std::size_t i = 0; i < 3; ++i) lines_[i].resume(previous.lines_[i]);
-    low_pass_.set_state(previous.low_pass_.state());
-    played_ = previous.fits_ ? previous.played_ : previous.low_pass_.state().y;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (lines_[i].size() == previous.lines_[i].size())
+        std::swap(lines_[i].state, previous.lines_[i].state);
+      else
+        lines_[i].reset();
+    low_pass_.state = previous.low_pass_.state;
+    played_ = previous.fits_ ? previous.played_ : previous.low_pass_.state.y;
   }
 
   static void archive(auto& self, auto& state) {

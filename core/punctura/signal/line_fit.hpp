@@ -34,6 +34,22 @@ class LineFit {
   /// 1 step, and a sudden motion soon has more.
   static constexpr Scalar steps_of_scatter = Scalar(1.1);
 
+  /// Sums over the samples z of a window, relative to an origin: of z, of z times its age, of z squared.
+  struct Sums {
+    Scalar zero{}, one{}, square{};
+  };
+  using Ring = typename Storage::template Samples<Scalar>;
+  /// The samples. A fit with the state of another one of the same size goes on from them, with its own tolerance and
+  /// lead.
+  struct State {
+    bool started = false;
+    std::size_t newest = 0;
+    Scalar origin{};  ///< of the sums, m
+    Sums sums{};
+    Ring ring{};
+  };
+  State state{};
+
   /// encoder_step: the resolution of the encoder, m; 0 is an ideal sensor, and its samples pass unchanged. window:
   /// length of the longest window, s. period: s. lead: step() extrapolates the line by this many ticks, to compensate
   /// the lag of a filter behind it.
@@ -42,34 +58,20 @@ class LineFit {
         most_square_(steps_of_scatter * encoder_step * (steps_of_scatter * encoder_step)),
         lead_(lead),
         size_(samples(window, period)),
-        whole_(size_),
-        ring_(2 * size_) {}
-
-  void reset() noexcept {
-    started_ = false;
-    newest_ = 0;
-    origin_ = 0;
-    sums_ = {};
-    std::fill(ring_.begin(), ring_.end(), Scalar{});
+        whole_(size_) {
+    state.ring = Ring(2 * size_);
   }
 
-  /// Takes over the samples of another fit, but keeps its own tolerance and lead. `previous` loses its samples.
-  ///
-  /// If the windows differ in size, it starts without samples.
-  void resume(LineFit& previous) noexcept {
-    if (previous.size_ != size_) return reset();
-    ring_.swap(previous.ring_);
-    newest_ = previous.newest_;
-    origin_ = previous.origin_;
-    sums_ = previous.sums_;
-    started_ = std::exchange(previous.started_, false);
+  void reset() noexcept {
+    state = {false, 0, 0, {}, std::move(state.ring)};
+    std::fill(state.ring.begin(), state.ring.end(), Scalar{});
   }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.started_);
-    state.index(self.newest_, self.size_);
-    state.numbers(self.origin_, self.sums_.zero, self.sums_.one, self.sums_.square);
-    for (auto& sample : self.ring_) state.numbers(sample);
+    state.flag(self.state.started);
+    state.index(self.state.newest, self.size_);
+    state.numbers(self.state.origin, self.state.sums.zero, self.state.sums.one, self.state.sums.square);
+    for (auto& sample : self.state.ring) state.numbers(sample);
   }
   void describe(auto& parameters) const {
     parameters.numbers(tolerance_, most_square_, lead_);
@@ -79,26 +81,27 @@ class LineFit {
   /// One tick. x: measured position, m. Returns the estimated position, m.
   Scalar step(Scalar x) noexcept {
     if (tolerance_ == 0) return x;
-    if (!started_) {
-      std::fill(ring_.begin(), ring_.end(), x);
-      origin_ = x;
-      sums_ = {};
-      started_ = true;
+    auto& [started, newest, origin, sums, ring] = state;
+    if (!started) {
+      std::fill(ring.begin(), ring.end(), x);
+      origin = x;
+      sums = {};
+      started = true;
     }
     // Each sample is written twice. So the last size_ samples are always contiguous, the newest first.
-    newest_ = newest_ == 0 ? size_ - 1 : newest_ - 1;
-    const Scalar oldest = ring_[newest_] - origin_;
-    ring_[newest_] = ring_[newest_ + size_] = x;
-    if (newest_ == 0) {
-      origin_ = x;
-      sums_ = sums_of(size_, x);
+    newest = newest == 0 ? size_ - 1 : newest - 1;
+    const Scalar oldest = ring[newest] - origin;
+    ring[newest] = ring[newest + size_] = x;
+    if (newest == 0) {
+      origin = x;
+      sums = sums_of(size_, x);
     } else {
-      const Scalar now = x - origin_;
-      sums_.one += sums_.zero - static_cast<Scalar>(size_) * oldest;
-      sums_.zero += now - oldest;
-      sums_.square += now * now - oldest * oldest;
+      const Scalar now = x - origin;
+      sums.one += sums.zero - static_cast<Scalar>(size_) * oldest;
+      sums.zero += now - oldest;
+      sums.square += now * now - oldest * oldest;
     }
-    if (const Line line = whole_.line(sums_, x - origin_); holds(line, whole_)) return end_of(line, x);
+    if (const Line line = whole_.line(sums, x - origin); holds(line, whole_)) return end_of(line, x);
     for (std::size_t n = shorter(size_); n >= 3 && n < size_; n = shorter(n)) {
       const Window window(n);
       if (const Line line = window.line(sums_of(n, x), 0); holds(line, window)) return end_of(line, x);
@@ -117,10 +120,6 @@ class LineFit {
   }
 
  private:
-  /// Sums over the samples z of a window, relative to an origin: of z, of z times its age, of z squared.
-  struct Sums {
-    Scalar zero{}, one{}, square{};
-  };
   struct Line {
     Scalar end, slope;  ///< m from the newest sample; m per tick into the past
     Scalar squares;     ///< of the distances of the samples from the line, m^2
@@ -148,7 +147,7 @@ class LineFit {
   Sums sums_of(std::size_t n, Scalar origin) const noexcept {
     Sums sums;
     for (std::size_t age = 0; age < n; ++age) {
-      const Scalar z = ring_[newest_ + age] - origin;
+      const Scalar z = state.ring[state.newest + age] - origin;
       sums.zero += z;
       sums.one += static_cast<Scalar>(age) * z;
       sums.square += z * z;
@@ -164,12 +163,8 @@ class LineFit {
   Scalar tolerance_;
   Scalar most_square_;  // m^2, of the mean square of the samples' distances from a line
   Scalar lead_;
-  std::size_t size_, newest_ = 0;
+  std::size_t size_;
   Window whole_;
-  bool started_ = false;
-  Scalar origin_{};  // of the sums, m
-  Sums sums_{};
-  typename Storage::template Samples<Scalar> ring_;
 };
 
 }  // namespace punctura

@@ -27,21 +27,19 @@ class LowPass {
     return filter;
   }
 
+  /// A filter with the state of another one goes on from its samples, with its own cutoff.
   struct State {
     Mask<Scalar> started{};
     Value y{};  ///< the last result
   };
+  State state{};
 
-  void reset() noexcept { state_ = {}; }
   /// Forgets the samples of these lanes.
-  void restart(const Mask<Scalar>& lanes) noexcept { state_.started = state_.started && !lanes; }
-  const State& state() const noexcept { return state_; }
-  /// Goes on from the samples of another filter, with its own cutoff.
-  void set_state(const State& state) noexcept { state_ = state; }
+  void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.state_.started);
-    state.numbers(self.state_.y);
+    state.flag(self.state.started);
+    state.numbers(self.state.y);
   }
   void describe(auto& parameters) const {
     parameters.flag(off_);
@@ -50,13 +48,13 @@ class LowPass {
 
   Value step(const Value& x) noexcept {
     using namespace lane;
-    Value& y = state_.y;
-    y = select(off_ || !state_.started, x, Value(y + gain_ * (x - y)));
-    state_.started = Mask<Scalar>(true);
+    Value& y = state.y;
+    y = select(off_ || !state.started, x, Value(y + gain_ * (x - y)));
+    state.started = Mask<Scalar>(true);
     return y;
   }
 
-  Mask<Scalar> started() const noexcept { return state_.started; }  ///< whether it has had a sample
+  Mask<Scalar> started() const noexcept { return state.started; }  ///< whether it has had a sample
   Scalar gain() const noexcept {
     using namespace lane;
     return select(off_, Scalar(1), gain_);
@@ -69,7 +67,6 @@ class LowPass {
 
   Mask<Scalar> off_{};
   Scalar gain_{};
-  State state_{};
 };
 
 }  // namespace punctura

@@ -42,6 +42,7 @@ class BasicPlunger {
   using Scalar = Scalar_;
   using State = PlungerState<Scalar>;
   static_assert(std::is_trivially_copyable_v<State>);
+  State state{};
 
   /// period: T, s. Check the syringe, the coupling and the period first.
   BasicPlunger(const BasicSyringe<Scalar>& syringe, const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
@@ -51,8 +52,8 @@ class BasicPlunger {
 
   /// The full syringe, with the thumb at rest on the plunger.
   void reset() noexcept {
-    state_ = {};
-    state_.contents = {syringe_.liquid, syringe_.air};
+    state = {};
+    state.contents = {syringe_.liquid, syringe_.air};
   }
 
   /// One tick. depth: of the thumb, m, inwards. Where it is in the first tick, the plunger starts. Returns the force on
@@ -61,16 +62,16 @@ class BasicPlunger {
   /// If depth is NaN or beyond 1000 km, it returns NaN and the state does not change.
   Scalar step(Scalar depth, const BasicOutlet<Scalar>& outlet) noexcept {
     if (!is_place(depth)) return std::numeric_limits<Scalar>::quiet_NaN();
-    if (!state_.started) state_.home = depth;
-    const Scalar p = depth - state_.home;
+    if (!state.started) state.home = depth;
+    const Scalar p = depth - state.home;
     const auto& c = coupling_;
     const Scalar A = syringe_.area(), F = syringe_.friction;
-    const Scalar p_prev = state_.started ? state_.p : p;
-    const Scalar q_prev = p_prev + state_.e;
-    const Scalar f_star = c.holding_force(p, p_prev, state_.e, {});  // holds the plunger still, as in K06 (27)
+    const Scalar p_prev = state.started ? state.p : p;
+    const Scalar q_prev = p_prev + state.e;
+    const Scalar f_star = c.holding_force(p, p_prev, state.e, {});  // holds the plunger still, as in K06 (27)
 
     const Room<Scalar> held{volume(q_prev), syringe_.compliance};
-    Contents<Scalar> contents = filled(state_.contents, syringe_, outlet, held, c.T);
+    Contents<Scalar> contents = filled(state.contents, syringe_, outlet, held, c.T);
     const Scalar middle = -A * contents.pressure;
     Scalar f = f_star;
     Phase phase = Phase::sticking;
@@ -80,22 +81,19 @@ class BasicPlunger {
       // f = f* + g (q - q_prev) on the coupling and f = -A P + edge on the plunger give
       // q - q_prev = (edge - f* - A P) / g: while it slides, the pressure pushes the plunger back.
       const Room<Scalar> sliding{held.volume - A * (edge - f_star) * c.inv_g, held.growth + A * A * c.inv_g};
-      contents = filled(state_.contents, syringe_, outlet, sliding, c.T);
+      contents = filled(state.contents, syringe_, outlet, sliding, c.T);
       f = -A * contents.pressure + edge;
     }
-    state_.e = state_.e - (p - p_prev) + c.inv_g * (f - f_star);  // K06 (25) and (26) combined
-    state_.started = true;
-    state_.p = p;
-    state_.f = f;
-    state_.phase = phase;
-    state_.contents = contents;
+    state.e = state.e - (p - p_prev) + c.inv_g * (f - f_star);  // K06 (25) and (26) combined
+    state.started = true;
+    state.p = p;
+    state.f = f;
+    state.phase = phase;
+    state.contents = contents;
     return f;
   }
 
-  const State& state() const noexcept { return state_; }
-  void set_state(const State& state) noexcept { state_ = state; }
-
-  static void archive(auto& self, auto& state) { State::archive(self.state_, state); }
+  static void archive(auto& self, auto& state) { State::archive(self.state, state); }
   void describe(auto& parameters) const {
     const auto& s = syringe_;
     parameters.numbers(s.bore, s.liquid, s.air, s.friction, s.compliance, s.resistance);
@@ -112,11 +110,11 @@ class BasicPlunger {
 
   const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }
   const SampledCoupling<Scalar>& coupling() const noexcept { return coupling_; }
-  Scalar force() const noexcept { return state_.f; }                     ///< f(k), N, on the thumb
-  Scalar position() const noexcept { return state_.p + state_.e; }       ///< q(k), m, of the plunger from its start
-  Scalar pressure() const noexcept { return state_.contents.pressure; }  ///< P(k), Pa
-  Scalar left() const noexcept { return state_.contents.left; }          ///< through the needle so far, m^3
-  Phase phase() const noexcept { return state_.phase; }
+  Scalar force() const noexcept { return state.f; }                     ///< f(k), N, on the thumb
+  Scalar position() const noexcept { return state.p + state.e; }        ///< q(k), m, of the plunger from its start
+  Scalar pressure() const noexcept { return state.contents.pressure; }  ///< P(k), Pa
+  Scalar left() const noexcept { return state.contents.left; }          ///< through the needle so far, m^3
+  Phase phase() const noexcept { return state.phase; }
 
  private:
   /// Volume of the barrel with the plunger at q (m), without pressure, m^3. Beyond the barrel's floor it is negative:
@@ -125,7 +123,6 @@ class BasicPlunger {
 
   BasicSyringe<Scalar> syringe_;
   SampledCoupling<Scalar> coupling_;
-  State state_{};
 };
 
 using Plunger = BasicPlunger<double>;

@@ -153,7 +153,7 @@ Vector3d LiveRun::tick(DeviceSample sample) {
 double LiveRun::thumb_depth() noexcept {
   if (!step_.syringe()) return 0;
   if (step_.fault() == Fault::none && !std::isnan(wanted_thumb_))
-    thumb_ = Thumb{}.step(thumb_, wanted_thumb_, step_.syringe()->plunger().force(), 1 / rate_);
+    thumb_ = Thumb{}.step(thumb_, wanted_thumb_, step_.syringe()->plunger.force(), 1 / rate_);
   return thumb_;
 }
 

@@ -97,7 +97,7 @@ class SceneLanes {
     tremor_.restart(lanes, {number(block_.tremor_a1), number(block_.tremor_a2), number(block_.tremor_b)});
     // The numbers of the block are new in these lanes; the other lanes go on.
     const auto renew = [&](auto& old, auto made) {
-      made.set_state(old.state());
+      made.state = old.state;
       made.restart(lanes);
       old = made;
     };

@@ -310,7 +310,7 @@ double ServoLoop::thumb_depth(const DeviceSample& sample) noexcept {
   const double wanted = wanted_thumb_.load(std::memory_order_relaxed);
   if (std::isnan(wanted)) return sample.thumb;
   if (step_->guard().fault() == Fault::none)
-    simulated_thumb_ = Thumb{}.step(simulated_thumb_, wanted, step_->guard().syringe()->plunger().force(), period_);
+    simulated_thumb_ = Thumb{}.step(simulated_thumb_, wanted, step_->guard().syringe()->plunger.force(), period_);
   return simulated_thumb_;
 }
 

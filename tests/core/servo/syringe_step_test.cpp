@@ -105,7 +105,7 @@ TEST_CASE("a change of the scene keeps what is in the syringe, a reset fills it"
   auto step = build(with_syringe());
   double thumb = 0;
   insert(step, 0, 6400, thumb, [](std::uint64_t, const Snapshot&) {});
-  const double left = step.syringe()->plunger().left();
+  const double left = step.syringe()->plunger.left();
   REQUIRE(left > 0);
   Scene changed = with_syringe();
   changed.membranes[0].membrane.friction = 0.25;
@@ -115,9 +115,9 @@ TEST_CASE("a change of the scene keeps what is in the syringe, a reset fills it"
   changed.syringe->syringe.air = 1e-6;
   auto other = build(changed);
   other.resume(next);
-  CHECK(other.syringe()->plunger().left() == 0);  // other contents: a full syringe
+  CHECK(other.syringe()->plunger.left() == 0);  // other contents: a full syringe
   next.reset();
-  CHECK(next.syringe()->plunger().left() == 0);
+  CHECK(next.syringe()->plunger.left() == 0);
 }
 
 TEST_CASE("a thumb without a reading is a fault, and takes all force away") {

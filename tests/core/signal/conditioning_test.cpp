@@ -138,6 +138,14 @@ TEST_CASE("the position has no jump when the conditioning changes") {
   }
 }
 
+TEST_CASE("a line with a window of another size starts without samples") {
+  PositionConditioner<double> first(Conditioning::line_fit, 0, count, T),
+      other(Conditioning::line_fit, 0, count, T / 2);
+  for (int k = 0; k < 200; ++k) first.step({1, 1, 1});
+  other.resume(first);
+  for (int k = 0; k < 200; ++k) CHECK(std::abs(other.step({1, 1, 1})[1] - 1) <= count / 2);
+}
+
 TEST_CASE("conditioning allocates no memory after its construction") {
   PositionConditioner<double> filter(Conditioning::line_fit, 300, count, T), other = filter;
   const std::size_t before = allocations();

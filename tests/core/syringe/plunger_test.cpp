@@ -57,9 +57,9 @@ TEST_CASE("each tick fulfils the balance of volumes, Boyle's law, the flow and t
     for (const double x : random_motion(noise, 200, reach, T)) {
       const double p = x + 0.3 * reach;  // begins at 0
       if (noise.uniform() < 0.02) outlet = random_outlet(noise, 1e4 * noise.normal());
-      const auto before = plunger.state().contents;
+      const auto before = plunger.state.contents;
       const double f = plunger.step(p, outlet);
-      const auto& [liquid, air, P, left] = plunger.state().contents;
+      const auto& [liquid, air, P, left] = plunger.state.contents;
       REQUIRE(liquid >= 0);
       REQUIRE(air >= 0);
       REQUIRE(P >= -atmosphere);
@@ -79,7 +79,7 @@ TEST_CASE("each tick fulfils the balance of volumes, Boyle's law, the flow and t
       const double middle = -s.area() * P, rest = 1e-9 * (1 + std::abs(f) + std::abs(middle));
       REQUIRE(f >= middle - s.friction - rest);
       REQUIRE(f <= middle + s.friction + rest);
-      const double e = plunger.state().e;
+      const double e = plunger.state.e;
       const double dq = first ? 0 : p + e - (p_prev + e_prev);
       if (plunger.phase() == Phase::sliding_in) {
         ++slid;
@@ -171,7 +171,7 @@ TEST_CASE("the resistance is lost where the liquid can leave") {
 TEST_CASE("an empty syringe pushes back at its floor, and a drawn one holds against a vacuum") {
   Plunger p = plunger(0.5 * mL, 0);
   for (int k = 0; k < 16000; ++k) p.step(std::min(10e-3, 2e-3 * k * T), open);
-  CHECK(p.state().contents.liquid == 0);
+  CHECK(p.state.contents.liquid == 0);
   CHECK(p.left() == doctest::Approx(0.5 * mL));
   CHECK(p.position() == doctest::Approx(0.5 * mL / p.syringe().area()).epsilon(0.05));
   CHECK(p.force() == doctest::Approx(-2000 * (10e-3 - p.position())));
@@ -186,7 +186,7 @@ TEST_CASE("blood comes back under its pressure when the needle is in a vessel an
   Plunger p = plunger(2 * mL, 0);
   for (int k = 0; k < 3200; ++k) p.step(-3e-3 * std::min(1.0, k / 1600.0), {1e9, 1 * kPa});
   CHECK(p.left() < -0.1 * mL);
-  CHECK(p.state().contents.liquid == doctest::Approx(2 * mL - p.left()));
+  CHECK(p.state.contents.liquid == doctest::Approx(2 * mL - p.left()));
 }
 
 TEST_CASE("a saved plunger continues with the same bits, and a number that is none changes nothing") {
