@@ -86,6 +86,7 @@ class Device {
   virtual void stop() noexcept = 0;
 
   virtual LongestSilence longest_silence() const noexcept { return {}; }
+  virtual bool finished() const noexcept { return false; }  ///< ticks have ended, without stop()
 
   /// Describes the problem if samples have healthy = false or if ticks have stopped. Otherwise empty.
   virtual std::string trouble() const { return {}; }

@@ -50,8 +50,17 @@ concept LawWithMemory =
         { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
       };
       { law.pieces(cos_beta, memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
-      { law.pieces(memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;  // on a line
     };
+
+/// The pieces for cos_beta. Without it, on a line: a law with an obliquity of its own has pieces(memory), any other law
+/// is crossed along the normal.
+template <LawWithMemory L, typename... Angle>
+constexpr auto pieces_for(const L& law, const typename L::Memory& memory, Angle... cos_beta) noexcept {
+  if constexpr (requires { law.pieces(cos_beta..., memory); })
+    return law.pieces(cos_beta..., memory);
+  else
+    return law.pieces(typename L::Scalar(1), memory);
+}
 
 /// Tells a law with memory where the proxy is: depth and dt as for FeelsTime. Returns true if the pieces change.
 template <LawWithMemory L>

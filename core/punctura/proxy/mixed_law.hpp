@@ -171,7 +171,7 @@ class MixedLaw {
       if constexpr (LawWithMemory<Each<i>>) {
         const auto* own = std::get_if<i>(&memory);
         using Own = std::variant_alternative_t<i, typename Memory::Each>;
-        all = Pieces(std::in_place_index<i>, law.pieces(cos_beta..., own ? *own : Own{}));
+        all = Pieces(std::in_place_index<i>, pieces_for(law, own ? *own : Own{}, cos_beta...));
       } else {
         all = Pieces(std::in_place_index<i>, law.pieces(cos_beta...));
       }

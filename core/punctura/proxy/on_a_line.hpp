@@ -64,7 +64,7 @@ struct LineTick {
 /// Computes the pieces of the law for the memory of the membrane.
 template <typename L, typename C>
 constexpr void lay_out(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
-  if constexpr (LawWithMemory<L>) state.pieces = params.law.pieces(state.law);
+  if constexpr (LawWithMemory<L>) state.pieces = pieces_for(params.law, state.law);
 }
 
 /// The pieces of the law for the present memory of the membrane.

@@ -35,7 +35,7 @@ class PolledDevice : public Device {
   void stop() noexcept override;
   std::vector<std::string> statements() const override { return with_priorities({}); }
 
-  bool finished() const noexcept { return finished_; }       ///< ticks have ended, without stop()
+  bool finished() const noexcept override { return finished_; }
   std::uint64_t missed() const noexcept { return missed_; }  ///< periods that a late tick has skipped
 
  protected:

@@ -128,6 +128,14 @@ void ServoLoop::stop() noexcept {
   halt();
 }
 
+void ServoLoop::run(double duration) {
+  arm();
+  start(duration);
+  const auto faulted = [this] { return frozen_ && (asked_ & reset_bit) == 0; };
+  while (!over_ && !faulted() && !device_->finished()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  stop();
+}
+
 /// From the watching thread. False if there is nothing more to watch.
 bool ServoLoop::look() noexcept {
   const std::unique_lock one(starting_or_stopping_, std::try_to_lock);

@@ -80,6 +80,8 @@ class ServoLoop {
   static constexpr double endless = std::numeric_limits<double>::infinity();
   void start(double duration = endless);  ///< disarmed; duration: s. Throws DeviceError, invalid_argument
   void stop() noexcept;                   ///< zero force, then no more ticks
+  /// Arms, starts, waits until the run is over, the device ends or a fault is latched, and stops. Throws as start().
+  void run(double duration = endless);
   bool running() const noexcept { return running_; }
   /// Whether the last start()'s run has ended by itself. Its device may still be stopping.
   bool over() const noexcept { return over_; }

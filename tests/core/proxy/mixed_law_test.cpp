@@ -37,7 +37,6 @@ struct HalfLaw {
       for (auto& piece : all.pieces) piece.lower = {piece.lower.c0 / 2, piece.lower.c1 / 2, piece.lower.c2 / 2};
     return all;
   }
-  Pieces pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
   bool advance(Memory& memory, double depth) const noexcept {
     if (!(depth > memory.cut)) return false;
     memory.cut = depth;

@@ -43,7 +43,6 @@ struct WornLaw : ThickLaw {
       piece.lower = {piece.lower.c0 / (1 + memory.deepest), piece.lower.c1, piece.lower.c2};
     return all;
   }
-  Pieces pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
   bool advance(Memory& memory, double depth) const noexcept {
     return depth > memory.deepest && (memory.deepest = depth, true);
   }

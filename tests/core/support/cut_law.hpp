@@ -16,7 +16,6 @@ struct CutLaw {
   PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
     return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
   }
-  PiecewiseBand<double, 3> pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
   bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
 };
 

@@ -25,7 +25,6 @@ struct HealingLaw {
     // A piece without length is still a wall, so it has the force of its neighbour.
     return {{0, front, hole, bottom}, {{{}, cut(0), cut(m.healed), cut(hole < bottom ? 1 : m.healed), cut(0)}}};
   }
-  PiecewiseBand<double, 5> pieces(const Memory& memory) const noexcept { return pieces(1, memory); }
   bool advance(Memory& m, double depth, double dt) const noexcept {
     if (depth > 0) return depth > m.front && (m.front = depth, true);
     if (m.front > 0) m = {0, std::max(m.front, m.hole), m.front >= m.hole ? 0 : m.healed};  // it has left

@@ -245,3 +245,23 @@ TEST_CASE("a driver whose stop does not return hides neither the end nor its rea
   device->released = true;
   CHECK(w.stopped());
 }
+
+TEST_CASE("run() arms, and ends with the device's last tick or with a fault") {
+  const StrokesMotion once({{0, 5e-3, 0}, {0, -9e-3, 0}, 1, 0.5, 0.5, 0}, 1);
+  SimulatedOptions options;
+  options.real_time = false;
+  for (const std::uint64_t ticks : {3200, 0}) {  // 0: endless
+    options.ticks = ticks;
+    const auto device = std::make_shared<SimulatedDevice>(once, options);
+    if (ticks == 0) device->spoil([](DeviceSample& sample) { sample.healthy = false; });
+    ServoLoop loop(device, paper_scene());
+    SnapshotRing& felt = loop.listen(3200);
+    loop.run();
+    CHECK_FALSE(loop.running());
+    double largest = 0;
+    felt.pop(3200, [&](const Snapshot& s) { largest = std::max(largest, s.force[1]); });
+    CHECK((largest > 0.1) == (ticks != 0));
+    CHECK(loop.latest().fault == (ticks != 0 ? Fault::none : Fault::device));
+    if (ticks != 0) CHECK(loop.report().ticks == ticks);
+  }
+}

@@ -1,8 +1,6 @@
 // A law that feels time, on the simulated device.
 #include <doctest/doctest.h>
 
-#include <thread>
-
 #include "core/support/healing_law.hpp"
 #include "core/support/paper_scene.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
@@ -25,10 +23,7 @@ std::array<double, 2> felt_peaks(double rest) {
   const auto device = std::make_shared<SimulatedDevice>(twice, options);
   ServoLoop loop(device, paper_scene(), settings);
   SnapshotRing& ticks = loop.listen(options.ticks);
-  loop.arm();
-  loop.start();
-  while (!device->finished()) std::this_thread::yield();
-  loop.stop();
+  loop.run();
   std::array<double, 2> peaks{};
   ticks.pop(options.ticks, [&](const Snapshot& s) {
     CHECK(s.fault == Fault::none);
