@@ -44,10 +44,10 @@ def _bound(uncertainty: Uncertainty, j: int, side: int, used: float, watch: Watc
     limit = max(CHI2_95 * uncertainty.variance * uncertainty.inflation[j] - used, 0.1 * uncertainty.variance)
     error = float(np.sqrt(uncertainty.covariance[j, j]))
     room = (free.high[j] - start[j]) if side > 0 else (start[j] - free.low[j])
-    follow = uncertainty.covariance[:, j] / uncertainty.covariance[j, j]  # how the others move along
     step, below, above = min(1.96 * error, room), (0.0, 0.0), None
     if not error > 0 or not np.isfinite(error):
         return None
+    follow = uncertainty.covariance[:, j] / uncertainty.covariance[j, j]  # how the others move along
     at = start
     for _ in range(6):
         guess = np.clip(at + follow * (start[j] + side * step - at[j]), free.low, free.high)

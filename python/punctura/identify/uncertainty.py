@@ -34,7 +34,7 @@ class Uncertainty:
     @property
     def correlations(self) -> Array:
         """Correlations of the coordinates, (p, p)."""
-        errors = np.sqrt(np.diag(self.covariance))
+        errors = np.sqrt(np.maximum(np.diag(self.covariance), 1e-300))  # 0 for a trace without noise
         return np.asarray(self.covariance / np.outer(errors, errors))
 
 

@@ -9,12 +9,15 @@ from punctura.identify.uncertainty import Uncertainty
 from traces import NEEDLE, trace
 
 
-@pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_derivatives_that_overflow_far_from_the_fit_end_the_profile_there(monkeypatch, wrong):
-    made = trace(noise=0.01)
+def near_the_fit():
     row = default_membrane()
     row[:5] = [5e-3, 600, 0.3, 0.2, 0.5e-3]
-    start = Parameters(NEEDLE, np.array([row]), default_coupling(4000))
+    return Parameters(NEEDLE, np.array([row]), default_coupling(4000))
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_derivatives_that_overflow_far_from_the_fit_end_the_profile_there(monkeypatch, wrong):
+    made, start = trace(noise=0.01), near_the_fit()
     names = ["membrane[0].surface", "tissue.stiffness", "coupling_stiffness", "offset"]
     uncertainty = Uncertainty(fit(Misfit(made, start), names, start))
     derivatives = Misfit.jacobian
@@ -27,3 +30,12 @@ def test_derivatives_that_overflow_far_from_the_fit_end_the_profile_there(monkey
     monkeypatch.setattr(Misfit, "jacobian", overflows)
     low, high = bound(uncertainty, 1, -1), bound(uncertainty, 1, 1)
     assert low is not None and high is not None and low < uncertainty.fit.parameters.get("tissue.stiffness") < high
+
+
+def test_a_covariance_of_zero_has_no_profile_and_no_warning():
+    start = near_the_fit()
+    uncertainty = Uncertainty(fit(Misfit(trace(noise=0.01), start), ["tissue.stiffness", "offset"], start))
+    uncertainty.covariance = np.diag([0.0, 4.0])  # as of a trace without noise
+    with np.errstate(all="raise"):
+        assert uncertainty.correlations == pytest.approx(np.diag([0.0, 1.0]))
+        assert bound(uncertainty, 0, 1) is None
