@@ -54,7 +54,7 @@ def recorded_motion(recording: Recording) -> Motion:
     too_long = f"{name} is longer than {LONGEST_S:g} s; choose a shorter recording"
     if rows > MOST_TICKS:
         raise ValueError(f"{name} has {rows} ticks; the limit is {MOST_TICKS}: choose a shorter recording")
-    if (rows - 1) * recording.info.said.period_s > LONGEST_S * (1 + 1e-9):
+    if (rows - 1) * recording.info.header.period_s > LONGEST_S * (1 + 1e-9):
         raise ValueError(too_long)
     parts: list[list[Array]] = [[], [], []]
     for ticks, _ in recorded_ticks(recording):

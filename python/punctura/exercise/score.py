@@ -23,7 +23,7 @@ def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: s
     opened = open_recording(recording)
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
     try:
-        attempt = Attempt(wanted, opened.info.scene, opened.info.said.second_device is not None)
+        attempt = Attempt(wanted, opened.info.scene, opened.info.header.second_device is not None)
     except ConfigurationError as bad:
         raise ConfigurationError([_with_remedy(p, wanted) for p in bad.problems], os.fspath(recording)) from None
     for columns, _ in recorded_ticks(opened):

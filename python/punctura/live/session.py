@@ -81,7 +81,7 @@ def _run(
                 summary.add(listener.read())  # a signal in this line must not lose the ticks that were read
                 summary.fault = summary.fault or loop.silence
                 if summary.fault and ended:  # not before the stop: the driver may take time to answer
-                    summary.blame(device, thumb)
+                    summary.add_trouble(device, thumb)
                 if watch:
                     with signals.raised():
                         watch(summary)

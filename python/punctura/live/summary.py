@@ -104,9 +104,9 @@ class RunSummary:
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]
         self.statements = [*statements_of(loop.device, thumb), *run_notes(loop)]
-        self.blame(loop.device, thumb)
+        self.add_trouble(loop.device, thumb)
 
-    def blame(self, device: Device, thumb: ThumbLoop | None = None) -> None:
+    def add_trouble(self, device: Device, thumb: ThumbLoop | None = None) -> None:
         """Adds the devices' explanations of a fault, or of trouble outside ticks."""
         self._add(device.trouble())
         if thumb is None:

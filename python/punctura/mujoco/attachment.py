@@ -85,10 +85,10 @@ class Attachment:
             yield
 
     @contextlib.contextmanager
-    def _alone(self, otherwise: str) -> Iterator[None]:
-        """One use at a time; takes the forces away at its end. Raises RuntimeError with the text `otherwise`."""
+    def _alone(self, message: str) -> Iterator[None]:
+        """One use at a time; takes the forces away at its end. Raises RuntimeError with the message."""
         if not self._in_use.acquire(blocking=False):
-            raise RuntimeError(otherwise)
+            raise RuntimeError(message)
         try:
             self._usable()
             yield

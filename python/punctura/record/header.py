@@ -123,57 +123,57 @@ def _plain(value: Plain) -> Plain:
 
 
 class RecordingInfo:
-    """The description of a recorded run. `data` is the JSON object; `said` holds the same fields, checked and typed."""
+    """The description of a recorded run. `data` is its JSON object; `header` the same, checked and typed."""
 
-    def __init__(self, data: JsonObject, said: Description, path: Path) -> None:
-        self.data, self.said = data, said
+    def __init__(self, data: JsonObject, header: Description, path: Path) -> None:
+        self.data, self.header = data, header
         self._path = path
 
     @property
     def scene(self) -> Scene:
         """The scene at the start of the run, at the device's rate. Raises RecordingError."""
-        return from_text(self.said.scene, self._path)
+        return from_text(self.header.scene, self._path)
 
     @property
     def gate(self) -> GateLimits:
         """The limits of the input gate. Raises RecordingError."""
-        values = dict(self.said.gate)
+        values = dict(self.header.gate)
         if "position_jump" in values:  # format 1: m between two readings
-            values["max_speed"] = _number(values.pop("position_jump")) * self.said.rate_hz
+            values["max_speed"] = _number(values.pop("position_jump")) * self.header.rate_hz
         return self._struct(GateLimits, "gate", values)
 
     @property
     def limits(self) -> ForceLimits:
         """The force limits in effect, device ratings included. Raises RecordingError."""
-        return self._struct(ForceLimits, "limits", self.said.limits)
+        return self._struct(ForceLimits, "limits", self.header.limits)
 
     @property
     def spent(self) -> float:
         """Motor load at the start of the run, N^2 s. A replay needs it to limit the force as the run did."""
-        return self.said.spent_N2s
+        return self.header.spent_N2s
 
     @property
     def rivals(self) -> list[Rival]:
         """The force models in place of the scene's law; empty if there were none. Raises RecordingError."""
         try:
-            return [Rival(one.rival, one.numbers) for one in self.said.rivals]
+            return [Rival(one.rival, one.numbers) for one in self.header.rivals]
         except ValueError as bad:
             reason = " ".join(str(bad).split())
         raise RecordingError(f"{self._path}: a rival in the run description is invalid: {reason}")
 
     @property
     def build(self) -> str:
-        return self.said.build
+        return self.header.build
 
     @property
     def about(self) -> JsonObject:
         """Further data from the caller of Recorder; empty if none."""
-        return self.said.about
+        return self.header.about
 
     @property
     def began_ns(self) -> int:
         """Start of the recording, ns since 1970 by the wall clock."""
-        return self.said.began_ns
+        return self.header.began_ns
 
     def _struct(self, kind: Callable[..., T], name: str, values: Mapping[str, Value]) -> T:
         try:

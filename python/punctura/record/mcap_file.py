@@ -44,7 +44,7 @@ class _Messages:
         writer.add_metadata("punctura.recording", {"json": json.dumps(recording.info.data)})
         ticks = self._channel(TICKS, "punctura.Tick", _tick_schema(recording.schema))
         scenes = self._channel(SCENES, "punctura.Scene", _SCENE_SCHEMA)
-        self._message(scenes, 0, {"tick": 0, "toml": recording.info.said.scene})
+        self._message(scenes, 0, {"tick": 0, "toml": recording.info.header.scene})
         for batch in in_pieces(recording.batches(progress)):
             for row in batch.to_pylist():
                 tick, taken = row["tick"], row.pop(NEW_SCENES) or []

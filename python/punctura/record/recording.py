@@ -39,7 +39,7 @@ class Recording:
         self.summary: Summary = (
             source.survey.summary(source.notes, source.damaged)
             if isinstance(source, PartFile)
-            else source.info.said.summary
+            else source.info.header.summary
         )
         self.notes: tuple[str, ...] = tuple(source.notes) + tuple(self._earlier_notes())
 

@@ -28,7 +28,7 @@ def replay_device(
     recording = open_recording(path)
     samples = _samples(recording)
     try:
-        rate, said = recording.info.said.rate_hz, recording.info.said.device
+        rate, said = recording.info.header.rate_hz, recording.info.header.device
         device = ReplayDevice(
             samples.position,
             samples.axis,

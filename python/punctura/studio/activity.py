@@ -64,12 +64,12 @@ class Activities:
     def tell_idle(self) -> None:
         """Clears the exercise in the pages, unless the outcome of the last one follows."""
         if not self._outcome_follows:
-            self._out.say(ExerciseStatus(exercise="", running=False, instruction="", goals=[], result=""))
+            self._out.send(ExerciseStatus(exercise="", running=False, instruction="", goals=[], result=""))
 
     def ticks(self, ticks: Ticks | None) -> None:
         if self.now and ticks:
             for message in self.now.ticks(ticks, time.monotonic()):
-                self._out.say(message)
+                self._out.send(message)
 
     def due(self, now: float) -> bool:
         """Whether the run must end now, because its activity is over."""
@@ -100,8 +100,8 @@ class Activities:
     def _tell(self, outcome: Outcome) -> None:
         self._outcome_follows = False
         if self.now is None and outcome.message is not None:
-            self._out.say(outcome.message)
+            self._out.send(outcome.message)
         elif outcome.notice:
-            self._out.say(Notice(text=outcome.notice))
+            self._out.send(Notice(text=outcome.notice))
         if outcome.remark:
-            self._out.say(Notice(text=outcome.remark))
+            self._out.send(Notice(text=outcome.remark))

@@ -67,29 +67,29 @@ class Api:
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"
         return [
-            Route("/api/recordings", _told(self.recordings)),
-            Route(one, _told(self.recording), methods=["GET"]),
-            Route(one, _told(self.delete), methods=["DELETE"]),
-            Route(one + "/ticks", _told(self.ticks)),
-            Route(one + "/trace", _told(self.trace)),
-            Route(one + "/download", _told(self.download)),
-            Route("/api/fault.csv", _told(self.fault_ticks)),
-            Route("/api/lab/fields", _told(self._lab.fields)),
-            Route("/api/lab/compare", _told(self._lab.compare)),
-            Route("/api/lab/bundle", _told_later(self._lab.bundle)),
-            Route(FILE, _told_later(self._traces.file), methods=["POST"]),
-            Route(IDENTIFY, _told_later(self._traces.identify), methods=["POST"]),
-            Route("/api/exercises", _told(self.exercises)),
-            Route("/api/scenes", _told(self.scenes)),
-            Route("/api/results", _told(self.results)),
-            Route("/api/results/download", _told(self.download_results)),  # before NAME: no result has this name
-            Route("/api/results/{name}", _told(self.result), methods=["GET"]),
-            Route("/api/results/{name}", _told(self.delete_result), methods=["DELETE"]),
-            Route("/api/results/{name}/download", _told(self.download_result)),
+            Route("/api/recordings", _with_status(self.recordings)),
+            Route(one, _with_status(self.recording), methods=["GET"]),
+            Route(one, _with_status(self.delete), methods=["DELETE"]),
+            Route(one + "/ticks", _with_status(self.ticks)),
+            Route(one + "/trace", _with_status(self.trace)),
+            Route(one + "/download", _with_status(self.download)),
+            Route("/api/fault.csv", _with_status(self.fault_ticks)),
+            Route("/api/lab/fields", _with_status(self._lab.fields)),
+            Route("/api/lab/compare", _with_status(self._lab.compare)),
+            Route("/api/lab/bundle", _with_status_async(self._lab.bundle)),
+            Route(FILE, _with_status_async(self._traces.file), methods=["POST"]),
+            Route(IDENTIFY, _with_status_async(self._traces.identify), methods=["POST"]),
+            Route("/api/exercises", _with_status(self.exercises)),
+            Route("/api/scenes", _with_status(self.scenes)),
+            Route("/api/results", _with_status(self.results)),
+            Route("/api/results/download", _with_status(self.download_results)),  # before NAME: no result has this name
+            Route("/api/results/{name}", _with_status(self.result), methods=["GET"]),
+            Route("/api/results/{name}", _with_status(self.delete_result), methods=["DELETE"]),
+            Route("/api/results/{name}/download", _with_status(self.download_result)),
         ]
 
     def recordings(self, request: Request) -> Response:
-        return json_of(self._shelf.entries(but=self._session.recording))
+        return json_of(self._shelf.entries(exclude=self._session.recording))
 
     def recording(self, request: Request) -> Response:
         return json_of(self._shelf.read(_name(request), lambda path: overview(open_recording(path))))
@@ -200,28 +200,28 @@ def _ticks_of(path: Path) -> Response:
     return Download(tick_frames(open_recording(path)), media_type="application/octet-stream")
 
 
-def _told(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
+def _with_status(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
     """Errors become an HTTP status and a sentence."""
 
-    def told(request: Request) -> Response:
+    def answer(request: Request) -> Response:
         try:
             return endpoint(request)
         except Exception as error:
             return _refusal(error)
 
-    return told
+    return answer
 
 
-def _told_later(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
+def _with_status_async(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
     """The same for an endpoint that takes the request's body while it comes."""
 
-    async def told(request: Request) -> Response:
+    async def answer(request: Request) -> Response:
         try:
             return await endpoint(request)
         except Exception as error:
             return _refusal(error)
 
-    return told
+    return answer
 
 
 def _refusal(error: Exception) -> Response:

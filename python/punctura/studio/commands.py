@@ -99,7 +99,7 @@ def _load(session: Session, loaded: Loaded) -> None:
 
 
 def _tell(session: Session, sentence: str) -> None:
-    session.out.say(Notice(text=sentence[:1].upper() + sentence[1:]))
+    session.out.send(Notice(text=sentence[:1].upper() + sentence[1:]))
 
 
 def _tell_room(session: Session) -> None:

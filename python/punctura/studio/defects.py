@@ -24,4 +24,4 @@ class Defects:
             text = explain(error)
             if text != self._last:
                 self._last = text
-                self._out.say(Notice(text=text))
+                self._out.send(Notice(text=text))

@@ -137,7 +137,7 @@ class Hub:
         """From any thread."""
         self.post(lambda: self._put_frame(data))
 
-    def say(self, message: BaseModel) -> None:
+    def send(self, message: BaseModel) -> None:
         """From any thread: sends to all viewers, and keeps messages that new viewers need."""
         self.post(lambda: self.tell_all(message))
 

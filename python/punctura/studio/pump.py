@@ -31,7 +31,7 @@ class Publisher(Protocol):
 
     def frame(self, data: bytes) -> None: ...
 
-    def say(self, message: BaseModel) -> None: ...
+    def send(self, message: BaseModel) -> None: ...
 
 
 class Pump:
@@ -68,9 +68,9 @@ class Pump:
         self._watch_fault(ticks)
         self._watch_axis(ticks)
         for event in self._finder.add(ticks):
-            self._out.say(MembraneEvent(**event.model_dump()))
+            self._out.send(MembraneEvent(**event.model_dump()))
         if self._estimator and (told := self._estimator.add(ticks)):
-            self._out.say(told)
+            self._out.send(told)
         return ticks
 
     def change(self, scene: Scene, tell: Callable[[], None]) -> Ticks | None:
@@ -117,7 +117,7 @@ class Pump:
             return
         self._fault = fault
         if fault == 0:
-            self._out.say(no_fault())
+            self._out.send(no_fault())
             return
         kind = Fault(fault)
         began = int(np.flatnonzero(ticks.fault == fault)[0])
@@ -128,7 +128,7 @@ class Pump:
             if thumb.fault != Fault.none:
                 what, remedy = fault_words(thumb.fault)
                 happened = f"The device under the thumb has a fault. {what}"
-        self._out.say(
+        self._out.send(
             FaultMessage(
                 fault=kind.name,
                 reason=happened,
@@ -150,7 +150,7 @@ class Pump:
         angles = obliquities(scene, self._axis, self._entered)
         if not np.abs(angles - self._angles).max() <= TURN:  # NaN: nothing was sent yet
             self._laws_at = now + LAWS_EVERY_S
-            self._out.say(LawsMessage(laws=self.laws()))
+            self._out.send(LawsMessage(laws=self.laws()))
 
 
 def no_fault() -> FaultMessage:

@@ -38,7 +38,7 @@ def loaded_of(recording: Recording) -> Loaded:
         except ConfigurationError:
             pass  # tables of another version; the scene's own text is always present
     try:
-        return from_text(info.said.scene)
+        return from_text(info.header.scene)
     except ConfigurationError:
         return from_text(_text_of(recording))
 

@@ -96,8 +96,8 @@ class Runs:
         self.activities.scene_change()
         self.turn()
         self.run.exchange(loaded)
-        say = lambda: self.out.say(scene_message(self.run, self.pump.laws(), new_run=False))  # noqa: E731
-        self.activities.ticks(self.pump.change(self.run.loop.scene, say))
+        send_scene = lambda: self.out.send(scene_message(self.run, self.pump.laws(), new_run=False))  # noqa: E731
+        self.activities.ticks(self.pump.change(self.run.loop.scene, send_scene))
 
     def arm(self) -> None:
         """A person allows force once the tip is outside tissue, unless a pause came after the present request."""
@@ -118,7 +118,7 @@ class Runs:
         self.estimate = on
         self.pump.estimate(on)
         if not on:
-            self.out.say(no_estimate())
+            self.out.send(no_estimate())
 
     def end_run(self, then: Then | None = None) -> None:
         """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
@@ -132,11 +132,11 @@ class Runs:
         if recorder is None:
             self.defects.guard(finish_activity)
             return
-        self.out.say(no_recording())
+        self.out.send(no_recording())
 
         def tell(status: RecorderStatus) -> None:
             if status.words:
-                self.out.say(Notice(text=f"Recording {name}: {status.words}"))
+                self.out.send(Notice(text=f"Recording {name}: {status.words}"))
             self.defects.guard(finish_activity)
             if then:
                 then(name, status)
@@ -151,13 +151,13 @@ class Runs:
         self.hand.take(self.run.loop.device, self.run.pose)
         self.heard.forget()
         self.arming.begin(self.run.loop)
-        self.out.say(no_fault())
+        self.out.send(no_fault())
         self.activities.tell_idle()
         if not self.recording:  # a page that was open before this studio may still show another one's recording
-            self.out.say(no_recording())
-        self.out.say(scene_message(self.run, self.pump.laws(), new_run=True))
+            self.out.send(no_recording())
+        self.out.send(scene_message(self.run, self.pump.laws(), new_run=True))
         if remind and not self.arming.armed:
-            self.out.say(Notice(text=STILL_OFF))
+            self.out.send(Notice(text=STILL_OFF))
         self.run.start()
 
     def turn(self, most: int | None = None) -> None:

@@ -48,7 +48,7 @@ class Session(Runs):
         super().__init__(loaded, settings, out, shelf)
         self.results = results
         self.exercises = exercises or Exercises()
-        self.experts = Experts(results.folder, lambda text: self.jobs.post(lambda: out.say(Notice(text=text))))
+        self.experts = Experts(results.folder, lambda text: self.jobs.post(lambda: out.send(Notice(text=text))))
         self.failure: BaseException | None = None
         self.thumb = SimulatedThumb()
         self._rounds = Rounds()
@@ -103,11 +103,11 @@ class Session(Runs):
         run, words = self.run, self.run.silence
         if words and run is not self._silent:
             self._silent = run
-            self.out.say(no_ticks(words))
+            self.out.send(no_ticks(words))
             self.defects.guard(self.end_run)
             thumb = run.thumb.device.trouble() if run.thumb else ""
             if trouble := run.loop.device.trouble() or thumb:  # after the stop: the driver may take time to answer
-                self.out.say(no_ticks(f"{words}. {trouble}"))
+                self.out.send(no_ticks(f"{words}. {trouble}"))
 
     def _take_target(self) -> None:
         wish, self._target = self._target, None
@@ -116,7 +116,7 @@ class Session(Runs):
             try:
                 self.hand.target(wish.position, wish.axis, wish.buttons)
             except ValueError as error:
-                self.out.say(Notice(text=str(error)))
+                self.out.send(Notice(text=str(error)))
 
     def _work(self) -> None:
         try:
@@ -153,6 +153,6 @@ class Session(Runs):
         self.turn(max(AT_ONCE, int(4 * PUMP_S * self.run.rate)))
 
     def _tell_status(self) -> None:
-        self.out.say(status_of(self.run, self.pump.lost, self.arming.armed, self.hand.mode, self.compare))
+        self.out.send(status_of(self.run, self.pump.lost, self.arming.armed, self.hand.mode, self.compare))
         if self.run.recorder and self.recording:
-            self.out.say(recording_status(self.recording, self.run))
+            self.out.send(recording_status(self.recording, self.run))

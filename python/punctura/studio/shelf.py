@@ -135,12 +135,12 @@ class Shelf:
             raise Busy("it is being recorded; stop it first")
         path.unlink()
 
-    def entries(self, but: str = "") -> list[RecordingEntry]:
-        """All readable recordings, the latest first. but: the name of the running one, which is left out."""
+    def entries(self, exclude: str = "") -> list[RecordingEntry]:
+        """All readable recordings, the latest first. exclude: the name of the running one, which is left out."""
         found = []
         for path in sorted(self.folder.iterdir()) if self.folder.is_dir() else ():
             name = path.name.removesuffix(PART).removesuffix(SUFFIX)
-            if name == but or not path.name.endswith((SUFFIX, SUFFIX + PART)) or name.startswith("."):
+            if name == exclude or not path.name.endswith((SUFFIX, SUFFIX + PART)) or name.startswith("."):
                 continue
             entry = self._entry(name, path)
             if entry:
@@ -186,8 +186,8 @@ def entry_of(name: str, recording: Recording) -> RecordingEntry:
     return RecordingEntry(
         name=name,
         title=str(about.get("title") or name),
-        started=info.said.began,
-        seconds=max(0, ticks) * info.said.period_s,
+        started=info.header.began,
+        seconds=max(0, ticks) * info.header.period_s,
         ticks=recording.rows,
         lost=recording.lost,
         scene=info.scene.name,

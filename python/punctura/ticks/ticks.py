@@ -94,9 +94,9 @@ class Ticks(TickArrays):
         """The columns by name."""
         return self.columns.items()
 
-    def get(self, name: str, otherwise: Array | None = None) -> Array | None:
-        """A column, or `otherwise` if these ticks do not have it."""
-        return self.columns.get(name, otherwise)
+    def get(self, name: str, default: Array | None = None) -> Array | None:
+        """A column, or `default` if these ticks do not have it."""
+        return self.columns.get(name, default)
 
     def replace(self, **columns: npt.ArrayLike) -> Ticks:
         """A copy with some columns replaced or added."""

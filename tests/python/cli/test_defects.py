@@ -122,7 +122,7 @@ def test_a_defect_in_every_turn_of_a_loop_is_logged_once_and_a_full_log_makes_ro
 
 def test_the_studio_tells_a_defect_once_and_does_not_call_a_lost_device_one(log):
     notices = []
-    guard = Defects(type("Out", (), {"say": lambda _, notice: notices.append(notice.text)})()).guard
+    guard = Defects(type("Out", (), {"send": lambda _, notice: notices.append(notice.text)})()).guard
     for _ in range(3):
         guard(OURS["adds"])
     guard(unplugged)

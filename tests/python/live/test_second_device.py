@@ -169,8 +169,8 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     told = json.loads(done.stdout)
     assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["thumb_peak_N"] > 0
     recording = open_recording(path)
-    assert recording.info.said.second_device.device.backend == "simulated"
-    assert recording.info.said.second_device.limits["max_force"] == 3.3
+    assert recording.info.header.second_device.device.backend == "simulated"
+    assert recording.info.header.second_device.limits["max_force"] == 3.3
     ticks = recording.ticks()
     assert np.ptp(ticks.thumb) > 1e-3 and ticks.thumb_felt.min() < 0
     assert replay(path).identical
@@ -234,7 +234,7 @@ def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     loaded, patient = from_name("epidural"), Limits(ForceLimits(), {"stale": 30.0, "deadline": 30.0})
     bench = Bench(Settings("simulated", limits=patient, second=SecondDevice("mine")), loaded.scene)
     run = Run(0, bench, loaded)
-    pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, say=told.append))
+    pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, send=told.append))
     run.start()
     wait_until(lambda: run.thumb.ticks > 10)
     thumb.position = (math.nan, 0.0, 0.0)

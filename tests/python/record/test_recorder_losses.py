@@ -21,7 +21,7 @@ def all_told(run, status):
         recording = open_recording(status.file)
         assert recording.rows == status.rows
         if status.finished:
-            assert recording.lost == status.lost and sum(recording.info.said.lost.values()) == status.lost
+            assert recording.lost == status.lost and sum(recording.info.header.lost.values()) == status.lost
     return status
 
 

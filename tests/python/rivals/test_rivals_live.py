@@ -42,7 +42,7 @@ def test_a_loop_gives_the_rivals_force_and_a_replay_gives_it_again(tmp_path, nam
     assert np.abs(ticks.force).max() > 0.05
     recording = open_recording(tmp_path / "run.parquet")
     assert recording.info.rivals == [rival]
-    assert recording.info.said.format == 3
+    assert recording.info.header.format == 3
     result = replay(tmp_path / "run.parquet")
     assert (result.ticks, result.identical, result.complete) == (4000, True, True)
 
@@ -61,14 +61,14 @@ def test_a_run_without_rivals_keeps_its_format(tmp_path):
     info = open_recording(tmp_path / "run.parquet").info
     assert info.rivals == []
     assert "rivals" not in info.data
-    assert info.said.format == 2
+    assert info.header.format == 2
 
 
 def test_a_rival_that_this_version_does_not_know_is_told(tmp_path):
     felt(tmp_path / "run.parquet", [Rival("dahl")], ticks=10)
     info = open_recording(tmp_path / "run.parquet").info
     for wrong in ({"rival": "newton", "numbers": {}}, {"rival": "dahl", "numbers": {"friction": -1.0}}):
-        said = type(info.said).model_validate(info.data | {"rivals": [wrong]})
+        said = type(info.header).model_validate(info.data | {"rivals": [wrong]})
         with pytest.raises(RecordingError, match="rival in the run description is invalid"):
             _ = RecordingInfo(info.data, said, tmp_path / "run.parquet").rivals
 

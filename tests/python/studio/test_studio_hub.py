@@ -71,10 +71,10 @@ def test_frames_are_lost_in_one_go_and_messages_never():
     async def test(hub):
         viewer = hub.join(hello)
         await all_of(viewer)
-        hub.say(Notice(text="before"))
+        hub.send(Notice(text="before"))
         for i in range(hubs.MOST_FRAMES + 1):
             hub.frame(bytes([i]))
-        hub.say(Notice(text="after"))
+        hub.send(Notice(text="after"))
         data = await all_of(viewer)
         assert [d for d in data if isinstance(d, bytes)] == [bytes([hubs.MOST_FRAMES])]
         assert ["before" in data[0], "after" in data[-1]] == [True, True]
@@ -87,7 +87,7 @@ def test_a_viewer_that_reads_no_message_either_has_to_go():
     async def test(hub):
         viewer = hub.join(hello)
         for _ in range(hubs.MOST_MESSAGES // 1000):
-            hub.say(Notice(text="x" * 1000))
+            hub.send(Notice(text="x" * 1000))
         assert viewer.closed and viewer.waiting == 0
         assert await viewer.take() is None
 
@@ -99,12 +99,12 @@ def test_a_stalled_viewer_is_told_the_last_of_what_is_told_again_and_again():
         viewer = hub.join(hello)
         await all_of(viewer)
         for rows in range(1000):
-            hub.say(RecordingStatus(name="r", rows=rows, lost=0, seconds=0.0, trouble=""))
+            hub.send(RecordingStatus(name="r", rows=rows, lost=0, seconds=0.0, trouble=""))
             hub.frame(FRAME)
         assert viewer._bytes < 200 and len(viewer._queue) < 3 * hubs.MOST_FRAMES
         (last,) = [d for d in await all_of(viewer) if isinstance(d, str)]
         assert '"rows":999' in last and viewer._bytes == 0
-        hub.say(RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble=""))
+        hub.send(RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble=""))
         assert len(await all_of(viewer)) == 1
 
     run(test)
@@ -119,9 +119,9 @@ def test_a_page_slower_than_frames_and_messages_is_told_of_an_exercise_each_seco
         for turn in range(1200):
             hub.frame(FRAME)
             if turn % 15 == 0:
-                hub.say(RecordingStatus(name="r", rows=turn, lost=0, seconds=0.0, trouble=""))
+                hub.send(RecordingStatus(name="r", rows=turn, lost=0, seconds=0.0, trouble=""))
             if turn % 6 == 0:
-                hub.say(exercise(turn))
+                hub.send(exercise(turn))
             if '"exercise"' in (told := str(await viewer.take())):
                 got.append(json.loads(told)["time"])
         assert got == sorted(got)
@@ -135,9 +135,9 @@ def test_a_message_waits_for_the_scene_that_it_belongs_to():
         viewer = hub.join(hello)
         await all_of(viewer)
         for turn in range(3):
-            hub.say(exercise(10 * turn))
-            hub.say(exercise(10 * turn + 1))
-            hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": turn}))
+            hub.send(exercise(10 * turn))
+            hub.send(exercise(10 * turn + 1))
+            hub.send(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": turn}))
         told = [json.loads(data) for data in await all_of(viewer)]
         assert [one.get("time", one.get("run")) for one in told] == [1, 0, 11, 1, 21, 2]
 
@@ -181,7 +181,7 @@ VIEW = {
 
 def test_a_newcomer_is_told_the_scene_as_a_new_run():
     async def test(hub):
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
+        hub.send(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
         viewer = hub.join(hello)
         (scene,) = [d for d in await all_of(viewer) if '"scene"' in d and '"kind":"scene"' in d]
         assert '"new_run":true' in scene
@@ -197,10 +197,10 @@ def test_a_newcomer_is_told_what_has_happened_in_this_run_and_nothing_of_the_one
         )  # fmt: skip
 
     async def test(hub):
-        hub.say(pop(1))
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": 0}))
-        hub.say(pop(2))
-        hub.say(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
+        hub.send(pop(1))
+        hub.send(SceneMessage.model_validate({"scene": VIEW, "new_run": True, "run": 0}))
+        hub.send(pop(2))
+        hub.send(SceneMessage.model_validate({"scene": VIEW, "new_run": False, "run": 0}))
         told = [json.loads(data) for data in await all_of(hub.join(hello))]
         kinds = [message["kind"] for message in told]
         assert [message["tick"] for message in told if message["kind"] == "event"] == [2]
@@ -221,7 +221,7 @@ def test_each_is_told_its_own_losses():
         for _ in range(hubs.MOST_FRAMES + 1):
             hub.frame(FRAME)
         other = hub.join(hello)
-        hub.say(Health.model_validate(health))
+        hub.send(Health.model_validate(health))
         assert f'"viewers":2,"dropped":{hubs.MOST_FRAMES}' in (await all_of(viewer))[-1]
         assert '"viewers":2,"dropped":0' in (await all_of(other))[-1]
 

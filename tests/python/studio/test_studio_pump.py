@@ -22,7 +22,7 @@ class Out:
     def frame(self, data):
         self.all.append(decode_ticks(data))
 
-    def say(self, message):
+    def send(self, message):
         self.all.append(message)
 
     @property
@@ -92,14 +92,14 @@ def test_a_changed_scene_is_told_between_its_ticks_and_those_before(run):
     for name in ("depth", "axial_force", "lower", "upper", "proxy", "direction"):
         run.columns[name][:7, 1] = np.nan  # the scene before had one membrane
     run.give(slice(0, 20))
-    pump.change(SCENE, lambda: out.say("the scene"))
+    pump.change(SCENE, lambda: out.send("the scene"))
     assert [x if isinstance(x, str) else len(x) for x in out.all[:3]] == [7, "the scene", 13]
     assert [f.membranes for f in out.frames] == [1, 2]
 
 
 def test_a_change_that_no_tick_takes_is_told_all_the_same(run):
     out = Out()
-    Pump(run, out).change(SCENE, lambda: out.say("the scene"))
+    Pump(run, out).change(SCENE, lambda: out.send("the scene"))
     assert out.all == ["the scene"]
 
 

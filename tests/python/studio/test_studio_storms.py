@@ -135,7 +135,7 @@ def test_a_page_that_does_not_read_is_ended_and_the_others_see_every_tick(guarde
         silent.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4096)
         most = 0
         for _ in range(5):
-            guarded.hub.say(Notice(text="x" * 200_000))
+            guarded.hub.send(Notice(text="x" * 200_000))
         patience = Patience()
         while len(guarded.hub.viewers) == 2:
             patience.check()
