@@ -29,7 +29,7 @@ class PopNumbers:
 class InsertionNumbers:
     """One insertion, with its withdrawal. SI; depths are along the needle, on the axis of the trace.
 
-    The force is counted from zero_N, the median before contact. None: the trace does not show it.
+    The force is counted from zero_N, the median in air. None: the trace does not show it.
     """
 
     insertion: int  # 0 is the first one
@@ -55,8 +55,9 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
     Raises TraceError for a trace without an insertion.
     """
     segments = segment(trace)
-    before = None if segments.contact is None else trace.force[: segments.contact + 1]
-    zero = 0.0 if before is None else float(np.median(before))
+    contact = segments.contact
+    before = trace.force[: 0 if contact is None else contact // 2 + 1]  # a soft layer may begin before the contact
+    zero = float(np.median(before)) if len(before) else 0.0
     level = replace(trace, force=trace.force - zero)
     segments = segment(level)
     found = []
@@ -66,9 +67,9 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
         if not inward:
             continue
         start, end, last = ways[0].start, inward[-1].end, ways[-1].end
-        contact = segments.contact if insertion == 0 else _contact(level, start, end)
+        touched = segments.contact if insertion == 0 else _contact(level, start, end)
         pops = [pop for pop in segments.pops if start <= pop.start < end]
-        found.append(_numbers(level, insertion, (start, end, last), contact, pops, zero, float(np.cos(angle))))
+        found.append(_numbers(level, insertion, (start, end, last), touched, pops, zero, float(np.cos(angle))))
     if not found:
         raise TraceError(f"{trace.source or 'the trace'}: the needle never goes in")
     return tuple(found)

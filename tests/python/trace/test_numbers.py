@@ -144,3 +144,10 @@ def test_the_words_name_each_number_with_its_unit(punctura, tmp_path):
     assert "  peak                 1 N\n" in words and "  gradient             0.2 N/mm\n" in words
     assert "  pop[0].drop          0.6 N\n" in words
     assert punctura("measure", tmp_path / "a.csv", "--out", tmp_path / "a.txt").status == 2
+
+
+def test_a_soft_layer_in_front_of_the_contact_does_not_move_the_zero():
+    made = triangle()
+    soft = np.where((NEEDLES_WAY > 0.8e-3) & (np.arange(len(NEEDLES_WAY)) < 1201), 0.05, 0.0)
+    (told,) = numbers_of(replace(made, force=made.force + soft))
+    assert told.zero_N == pytest.approx(0, abs=1e-9) and told.peak_N == pytest.approx(1.05)
