@@ -11,21 +11,21 @@ from typing import TYPE_CHECKING, TextIO, TypeAlias
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-Tell: TypeAlias = Callable[[float], None]
+Report: TypeAlias = Callable[[float], None]
 # The argument `progress`: None, a function that takes the finished share (0 to 1), or True for a bar.
-Progress: TypeAlias = Tell | bool | None
+Progress: TypeAlias = Report | bool | None
 
 PATIENCE_S = 1.0
 
 
 @contextmanager
-def reporting(progress: Progress, what: str = "running") -> Iterator[Tell]:
+def reporting(progress: Progress, what: str = "running") -> Iterator[Report]:
     """Gives the function to call with the finished share. Raises TypeError."""
     if progress is None or progress is False:
         yield lambda share: None
     elif progress is True:
-        with progress_bar(what) as tell:
-            yield tell
+        with progress_bar(what) as report:
+            yield report
     elif callable(progress):
         yield progress
     else:
@@ -33,7 +33,7 @@ def reporting(progress: Progress, what: str = "running") -> Iterator[Tell]:
 
 
 @contextmanager
-def progress_bar(what: str, stream: TextIO | None = None) -> Iterator[Tell]:
+def progress_bar(what: str, stream: TextIO | None = None) -> Iterator[Report]:
     """A bar that is shown only on a terminal and after one second."""
     stream = stream or sys.stderr
     if not stream.isatty():
@@ -43,7 +43,7 @@ def progress_bar(what: str, stream: TextIO | None = None) -> Iterator[Tell]:
     with ExitStack() as stack:
         bar: Bar | None = None
 
-        def tell(share: float) -> None:
+        def report(share: float) -> None:
             nonlocal bar
             if bar is None and monotonic() - began > PATIENCE_S:
                 from rich.console import Console  # only here: it takes long to import
@@ -54,4 +54,4 @@ def progress_bar(what: str, stream: TextIO | None = None) -> Iterator[Tell]:
             if bar is not None:
                 bar.update(bar.task_ids[0], completed=share)
 
-        yield tell
+        yield report

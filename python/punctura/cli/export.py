@@ -20,8 +20,8 @@ def command(
     """Converts a recording to CSV, Parquet or MCAP. Also reads the file of a run that was killed."""
     from punctura.record import export
 
-    with progress_bar("export") as tell:
-        result = export(file, out, tell)
+    with progress_bar("export") as progress:
+        result = export(file, out, progress)
     for note in result.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     lost = f", {result.lost} lost" if result.lost else ""

@@ -26,8 +26,8 @@ def command(
     """
     from punctura.record import replay
 
-    with progress_bar("replay") as tell:
-        result = replay(file, out, tell)
+    with progress_bar("replay") as progress:
+        result = replay(file, out, progress)
     for note in result.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     if as_json:

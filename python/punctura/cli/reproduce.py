@@ -21,8 +21,8 @@ def command(
     """Makes Figures 3, 5, 10, 11 and 12 of K06. Writes PNG, SVG, CSV, and a page that shows them."""
     from punctura.reproduce import reproduce  # imported here, because the drawing library takes long to load
 
-    with progress_bar("reproduce") as tell:
-        result = reproduce(out, tell)
+    with progress_bar("reproduce") as progress:
+        result = reproduce(out, progress)
     typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else _in_words(result))
 
 

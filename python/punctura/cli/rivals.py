@@ -71,10 +71,10 @@ def command(
     for finding in read.findings:
         typer.echo(f"punctura: note: {finding}", err=True)
     names = None if models is None else [name.strip() for name in models.split(",")]
-    with progress_bar("rivals") as tell:
+    with progress_bar("rivals") as progress:
         found = compare_trace(
             read, names, needle=_trace.needle_of(needle) if needle else recorded_needle(trace), with_chatter=chatter,
-            progress=tell,
+            progress=progress,
         )  # fmt: skip
     if plot is not None:
         save_figure(found, plot)

@@ -35,8 +35,8 @@ def command(
 
     With --rival, a force model of another author takes the place of the scene's law, at the places of its membranes.
     """
-    with progress_bar("simulate") as tell:
-        summary = simulate(scene, motion, out, tell, rivals=None if rival is None else rivals_of(rival))
+    with progress_bar("simulate") as progress:
+        summary = simulate(scene, motion, out, progress, rivals=None if rival is None else rivals_of(rival))
     for note in summary.notes:
         typer.echo(f"punctura: note: {note}", err=True)
     typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))

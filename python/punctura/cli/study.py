@@ -40,7 +40,7 @@ def command(
     from punctura.study.forecast import Forecast
     from punctura.study.report import in_trials
 
-    def foretell(told: Forecast) -> None:
+    def on_forecast(told: Forecast) -> None:
         if told.is_worth_telling:
             typer.echo(f"punctura: {told}", err=True)
 
@@ -56,8 +56,8 @@ def command(
         )
         return
     try:
-        with progress_bar("study") as tell:
-            summary = run_study(loaded, folder, workers, tell, scheduler, foretell)
+        with progress_bar("study") as progress:
+            summary = run_study(loaded, folder, workers, progress, scheduler, on_forecast)
     except (KeyboardInterrupt, Ended):
         typer.echo(f"punctura: {folder} keeps the finished chunks: the same command goes on with the others", err=True)
         raise

@@ -52,20 +52,20 @@ class Reproduction:
         }
 
 
-def reproduce(folder: str | os.PathLike[str], tell: Callable[[float], None] = lambda share: None) -> Reproduction:
+def reproduce(folder: str | os.PathLike[str], progress: Callable[[float], None] = lambda share: None) -> Reproduction:
     """Writes K06 Figs. 3, 5, 10, 11, 12, the close-up and the pop as PNG, SVG and CSV, and a page with all of them.
 
-    `tell` is called with the completed share, 0 to 1. All files are first written to a temporary folder, so that a
+    `progress` is called with the completed share, 0 to 1. All files are first written to a temporary folder, so that a
     failure (OSError) leaves no file.
     """
     target = Path(folder).absolute()
     try:
-        return _reproduce(target, tell)
+        return _reproduce(target, progress)
     except OSError as error:
         raise OSError(f"cannot write to {target}: {error.strerror or error}") from error
 
 
-def _reproduce(target: Path, tell: Callable[[float], None]) -> Reproduction:
+def _reproduce(target: Path, progress: Callable[[float], None]) -> Reproduction:
     target.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".making-", dir=target) as aside:
         workshop = Path(aside)
@@ -76,13 +76,13 @@ def _reproduce(target: Path, tell: Callable[[float], None]) -> Reproduction:
                 drawing = recipe()
                 _save(drawing, workshop)
                 drawings.append(drawing)
-                tell((i + 1) / (len(recipes) + 1))
+                progress((i + 1) / (len(recipes) + 1))
         write_page(drawings, workshop, PAGE)
         made = sorted(file.name for file in workshop.iterdir())
         files = [PAGE, *(name for name in made if name != PAGE)]
         for name in reversed(files):  # the page last, so that it never refers to missing files
             shutil.move(workshop / name, target / name)
-    tell(1.0)
+    progress(1.0)
     return Reproduction(target, tuple(files), tuple(m for drawing in drawings for m in drawing.measured))
 
 

@@ -13,7 +13,7 @@ from punctura.errors import ConfigurationError, Problem
 from punctura.identify import Identification
 from punctura.identify.noise import effective_samples
 from punctura.one_thread import one_thread
-from punctura.progress import Tell
+from punctura.progress import Report
 from punctura.rivals.chatter import Chatter, places_of, rival_chatter
 from punctura.rivals.first_stretch import StretchFit, compared, first_stretch, k06_on, rival_on
 from punctura.rivals.fit import RivalFit, fit_rival
@@ -71,7 +71,7 @@ def compare_trace(
     *,
     needle: Needle | None = None,
     with_chatter: bool = True,
-    progress: Tell | None = None,
+    progress: Report | None = None,
     identified: Identification | None = None,
 ) -> TraceComparison:
     """Fits rivals to a trace, and K06 if the needle is told, and compares them. names: default: all.

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.target import same_file, target_problems
-from punctura.progress import Tell
+from punctura.progress import Report
 from punctura.scene import scene_text
 from punctura.simulation.depth_note import depth_note
 from punctura.simulation.even import Evenness
@@ -34,14 +34,14 @@ _SURVEY_SHARE = 0.2  # share of the progress for the first pass
 
 
 def simulate_file(
-    name: str, scene: Scene, source: Path, target: Path, tell: Tell, rivals: Sequence[Rival] | None
+    name: str, scene: Scene, source: Path, target: Path, progress: Report, rivals: Sequence[Rival] | None
 ) -> SimulationSummary:
     """See simulate. name: of the scene, for the summary."""
     began = perf_counter()
     _check_target(source, target)
 
     motion = MotionTable(source) if source.suffix.lower() in TABLES else MotionFile(source)
-    even = _survey(motion, tell)
+    even = _survey(motion, progress)
     summary = SimulationSummary(name, str(source), str(target), rate_hz=scene.servo.rate)
     summary.rows_in = even.count
     summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
@@ -52,7 +52,7 @@ def simulate_file(
     schema = output_schema(motion.has_axis, len(scene.membranes), metadata)
     default_axis = np.array(scene.membranes[0].inward_normal)
     with open_output(target, schema) as output:
-        for part in _parts(motion, resampler, tell):
+        for part in _parts(motion, resampler, progress):
             trace = insertion.run(part.position, default_axis if part.axis is None else part.axis)
             output.write(output_table(schema, part.time, part.position, part.axis, trace))
             _add(summary, part, trace)
@@ -81,7 +81,7 @@ def _check_target(source: Path, target: Path) -> None:
         raise ConfigurationError(problems)
 
 
-def _survey(motion: MotionFile | MotionTable, tell: Tell) -> Evenness:
+def _survey(motion: MotionFile | MotionTable, progress: Report) -> Evenness:
     """Reads the whole motion once, so that errors are found before the computation."""
     even = Evenness(motion.path)
     for block in motion.blocks():
@@ -95,7 +95,7 @@ def _survey(motion: MotionFile | MotionTable, tell: Tell) -> Evenness:
             if len(nowhere):
                 line = block.first_line + int(nowhere[0])
                 raise MotionError(motion.path, line, "axis_x, axis_y, axis_z are all 0; they must give a direction")
-        tell(_SURVEY_SHARE * block.bytes_read / motion.size)
+        progress(_SURVEY_SHARE * block.bytes_read / motion.size)
     even.finish()
     if not even.count:
         raise MotionError(motion.path, 2, "there is no motion below the column names")
@@ -117,7 +117,7 @@ def _resampler(even: Evenness, scene: Scene, summary: SimulationSummary) -> Resa
     return resampler
 
 
-def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, tell: Tell) -> Iterator[_Part]:
+def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, progress: Report) -> Iterator[_Part]:
     for block in motion.blocks():
         for i in range(0, len(block.time), ROWS_AT_ONCE):
             rows = slice(i, i + ROWS_AT_ONCE)
@@ -127,7 +127,7 @@ def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, tell: 
             else:
                 for stamps, values in resampler.add(position if axis is None else with_axis(position, axis)):
                     yield _Part(stamps, values[:, :3], None if axis is None else unit(values[:, 3:]))
-            tell(_SURVEY_SHARE + (1 - _SURVEY_SHARE) * block.bytes_read / motion.size)
+            progress(_SURVEY_SHARE + (1 - _SURVEY_SHARE) * block.bytes_read / motion.size)
 
 
 def _add(summary: SimulationSummary, part: _Part, trace: Ticks) -> None:

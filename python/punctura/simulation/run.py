@@ -83,5 +83,5 @@ def simulate(
 
     loaded = scene if isinstance(scene, Scene) else load_scene(scene)
     name = scene.name if isinstance(scene, Scene) else str(scene)
-    with reporting(progress, "simulate") as tell:
-        return simulate_file(name, loaded, Path(motion), Path(out_path), tell, rivals)
+    with reporting(progress, "simulate") as report:
+        return simulate_file(name, loaded, Path(motion), Path(out_path), report, rivals)

@@ -42,19 +42,19 @@ def run_study(
     threads: int | None = None,
     progress: Progress = None,
     scheduler: str | None = None,
-    foretell: Callable[[Forecast], None] = lambda _: None,
+    on_forecast: Callable[[Forecast], None] = lambda _: None,
 ) -> StudySummary:
     """Runs all trials that the folder `out` does not hold yet, and writes trials.parquet and report.md there.
 
     threads: default: one for each processor; the rows do not depend on it. scheduler: the address of a Dask scheduler,
-    whose workers compute the trials instead. foretell: is called after the first chunk, if more follow. Raises
+    whose workers compute the trials instead. on_forecast: is called after the first chunk, if more follow. Raises
     ConfigurationError if a trial's numbers are no scene, StudyError, OSError.
     """
     folder, all_of_them = Folder(Path(out)), design(plan)
     n, size = len(all_of_them.seeds), plan.file.chunk
     starts = range(0, n, size)
     kept = 0
-    with folder.locked(), reporting(progress, "study") as tell:
+    with folder.locked(), reporting(progress, "study") as update:
         folder.claim(row_schema(plan, all_of_them))
         if scheduler is not None:
             needed_package()
@@ -70,15 +70,15 @@ def run_study(
                     kept += len(part.trials.seeds)
                 else:
                     parts.append(part)
-                tell(CHECKING * (number + 1) / len(starts))
+                update(CHECKING * (number + 1) / len(starts))
             done, began = kept, monotonic()
             for number, table in _computed(plan, parts, threads, scheduler):
                 folder.save(number, table)
                 done += table.num_rows
-                tell(1 - (1 - CHECKING) * (1 - done / n))
+                update(1 - (1 - CHECKING) * (1 - done / n))
                 if done == kept + table.num_rows < n:
                     took = monotonic() - began if scheduler is None else None
-                    foretell(forecast(folder, number, took, len(parts) - 1, len(starts), n - done))
+                    on_forecast(forecast(folder, number, took, len(parts) - 1, len(starts), n - done))
             folder.join(len(starts))
         report, faults = write_report(plan, folder)
     return StudySummary(str(plan.path), str(folder.table), str(report), n, kept, faults)

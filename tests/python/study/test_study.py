@@ -120,7 +120,7 @@ def test_the_first_chunk_tells_how_long_and_how_much_disk_the_others_take(tmp_pa
     told: list[Forecast] = []
     shares: list[float] = []
     out = tmp_path / "out"
-    run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, foretell=told.append)
+    run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, on_forecast=told.append)
     assert [one.trials for one in told] == [4]
     assert told[0].seconds is not None and 0 < told[0].seconds < 60 and not told[0].is_worth_telling
     assert 0.5 * (out / "trials.parquet").stat().st_size < told[0].bytes < told[0].free
