@@ -1,13 +1,18 @@
 """Measures how often the intervals of `punctura identify` hold the truth.
 
-    python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0]
-        [--rate 200] [--early] [--processes 1] [--seed 1]
+    python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
+        [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
+        [--delay 0] [--walls 1] [--apart 0.5] [--processes 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
 standard deviation of a second, slow noise, N, whose correlation falls by a factor of e in one second. --rate: of the
 samples, Hz; at 40 Hz the needle goes some 0.2 mm from sample to sample. --early: the trace ends half way to the pop,
-so that it cannot tell some parameters.
+so that it cannot tell some parameters. --machine: the needle moves at one speed, not by a hand at a device,
+whose encoder has counts. --inward: the trace ends at its greatest depth. --walk: the standard deviation,
+N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
+multiples of these, m and N. --lag, --delay: of the force sensor, s. --walls: with 2, the second surface lies --apart
+tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often it is right.
 
 An interval of 95 % should hold the truth in 93 to 97 % of the cases. "hidden": even an ideal interval is too wide to
 tell the parameter. First, the Fisher information at the truth says that it spans a factor of 100 or more. Second, the
@@ -23,7 +28,7 @@ import argparse
 import multiprocessing
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 
 import numpy as np
@@ -37,22 +42,40 @@ from punctura.identify.slow_noise import Mixture
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95
 from punctura.trace import Trace, TraceError
+from scipy.signal import lfilter
 
 DEVICE_HZ = 1600
 FAR = 10.0  # times the true value, and the true value over it
+AIR = 2e-3  # m, in front of the first surface
+THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
+WALK = 10.0  # s, after which --walk is reached
 SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
+
+OTHERS = {
+    "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Conditions:
-    """How a trace is recorded. noise, drift: N; correlation: of the noise, from sample to sample; rate: Hz."""
+    """How a trace is recorded, and of what. SI units; the options of the command line say what they mean."""
 
     noise: float = 0.01
     correlation: float = 0.0
     drift: float = 0.0
     rate: int = 200
+    machine: bool = False
     early: bool = False
+    inward: bool = False
+    walk: float = 0.0
+    depth_noise: float = 0.0
+    depth_step: float = 0.0
+    force_step: float = 0.0
+    lag: float = 0.0
+    delay: float = 0.0
+    walls: int = 1
+    apart: float = 0.5
 
 
 @dataclass(frozen=True)
@@ -78,32 +101,68 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
     rng = np.random.default_rng(seed)
     needle = pn.Needle(rng.uniform(0.6e-3, 1.6e-3), rng.uniform(0.25, 0.6))
     tip = needle.diameter / np.tan(needle.tip_angle)
-    truth = {
-        "stiffness": rng.uniform(200, 900), "precompression": rng.uniform(0.05, 0.4), "friction": rng.uniform(0.1, 0.4),
-        "thickness": rng.uniform(0.1, 0.5) * tip, "coupling_stiffness": rng.uniform(1500, 6000),
-    }  # fmt: skip
-    wall = pn.Membrane(*(truth[name] for name in ("stiffness", "precompression", "friction", "thickness")))
-    placed = pn.PlacedMembrane("wall", wall, (0, 0, 0), (0, -1, 0))
-    scene = pn.Scene(
-        "random",
-        needle, pn.Coupling(truth["coupling_stiffness"], 0.01), [placed],
-        servo=pn.ServoSettings(low_pass=0),
-    )  # fmt: skip
-    deepest = 1.6 * tip + truth["thickness"] + 1e-3
-    strokes = pn.Strokes((0, 2e-3, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
-    ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))[:: DEVICE_HZ // given.rate]
-    count = len(ticks.time)
-    sensor = given.noise * correlated(rng, count, given.correlation)
+    walls: list[pn.PlacedMembrane] = []
+    truth: dict[str, float] = {}
+    thinner = 1.0 if given.walls == 1 else THINNER
+    for i in range(given.walls):
+        values = {
+            "stiffness": rng.uniform(200, 900), "precompression": rng.uniform(0.05, 0.4),
+            "friction": rng.uniform(0.1, 0.4), "thickness": rng.uniform(0.1, 0.5) * tip / thinner,
+        }  # fmt: skip
+        depth = i * given.apart * tip
+        walls.append(pn.PlacedMembrane(f"wall {i}", pn.Membrane(*values.values()), (0, -depth, 0), (0, -1, 0)))
+        truth |= {f"membrane[{i}].{kind}": value for kind, value in values.items()}
+        truth[f"membrane[{i}].surface"] = AIR + depth
+    truth["coupling_stiffness"] = rng.uniform(1500, 6000)
+    deepest = max(1.6 * tip + wall.membrane.thickness - wall.point[1] for wall in walls) + 1e-3
+    every = slice(None, None, DEVICE_HZ // given.rate)
+    if given.machine:
+        time, depth = machine_motion(AIR + deepest)
+        true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0))
+        force = Misfit(Trace(depth, depth, time), true).forces(true.with_values(truth))
+    else:
+        scene = pn.Scene(
+            "random", needle, pn.Coupling(truth["coupling_stiffness"], 0.01), walls, servo=pn.ServoSettings(low_pass=0)
+        )
+        strokes = pn.Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
+        ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
+        time, depth, force = ticks.time, AIR - np.asarray(ticks.position[:, 1]), np.asarray(ticks.force[:, 1])
+    force, time, depth = through_sensor(force, given)[every], time[every], depth[every]
+    if given.inward:
+        force, time, depth = (column[: int(np.argmax(depth)) + 1] for column in (force, time, depth))
+    count = len(time)
+    force = force + given.noise * correlated(rng, count, given.correlation)
     if given.drift:
-        sensor += given.drift * correlated(rng, count, float(np.exp(-1 / (SLOW * given.rate))))
-    force = np.asarray(ticks.force[:, 1]) + sensor
-    return Trace(-ticks.position[:, 1] + 2e-3, force, ticks.time), needle, truth | {"surface": 2e-3}
+        force += given.drift * correlated(rng, count, float(np.exp(-1 / (SLOW * given.rate))))
+    force += given.walk / np.sqrt(WALK * given.rate) * np.cumsum(rng.normal(size=count))
+    depth = depth + given.depth_noise * rng.normal(size=count)
+    return Trace(stepped(depth, given.depth_step), stepped(force, given.force_step), time), needle, truth
+
+
+def machine_motion(deepest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Time, s, and depth, m: in 2 s to the greatest depth at one speed, a rest of 0.4 s, and out."""
+    time = np.arange(0, 5.0, 1 / DEVICE_HZ)
+    return time, np.interp(time, [0.2, 2.2, 2.6, 4.6], [0, deepest, deepest, 0])
+
+
+def through_sensor(force: NDArray[np.float64], given: Conditions) -> NDArray[np.float64]:
+    """The force of every tick (n,), N, as a sensor that lags and a delay give it."""
+    if given.lag:
+        gain = -float(np.expm1(-1 / (given.lag * DEVICE_HZ)))
+        force = lfilter([gain], [1, gain - 1], force)
+    ticks = round(given.delay * DEVICE_HZ)
+    return np.concatenate((np.full(ticks, force[0]), force[: len(force) - ticks]))
+
+
+def stepped(values: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """The values as a sensor gives them that knows only multiples of `step`."""
+    return np.round(values / step) * step if step else values
 
 
 def until_half(trace: Trace, truth: dict[str, float], needle: pn.Needle) -> Trace:
     """The trace up to half of the way from contact to the pop."""
     way = needle.diameter / np.tan(needle.tip_angle)
-    return trace[: max(int(np.argmax(trace.depth > truth["surface"] + 0.5 * way)), 20)]
+    return trace[: max(int(np.argmax(trace.depth > truth["membrane[0].surface"] + 0.5 * way)), 20)]
 
 
 def explained(true: Parameters, name: str, value: float, names: Sequence[str], trace: Trace, given: Conditions) -> bool:
@@ -135,26 +194,27 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     trace, needle, truth = random_trace(seed, given)
     if given.early:
         trace = until_half(trace, truth, needle)
-    found = identify(trace, needle, membranes=1)
-    true = Parameters(needle, np.array([default_membrane()]), default_coupling(truth["coupling_stiffness"]))
-    names = [f"membrane[0].{kind}" for kind in truth if kind != "coupling_stiffness"] + ["coupling_stiffness", "offset"]
-    true = true.with_values({name: truth[name.rpartition(".")[2]] for name in names[:-1]})
+    found = identify(trace, needle, membranes=1 if given.walls == 1 else "auto")
+    true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0)).with_values(truth)
+    names = [*truth, "offset"]
     assert trace.time is not None
     inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
     rows = []
+    if given.walls > 1:
+        rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
     for estimate in found.estimates:
-        kind = estimate.name.rpartition(".")[2]
-        if kind in truth:
+        kind, value = estimate.name.rpartition(".")[2], truth.get(estimate.name)
+        if value is not None:
             low = -np.inf if estimate.low is None else estimate.low
             high = np.inf if estimate.high is None else estimate.high
-            error = errors[estimate.name] / (truth[kind] if kind == "precompression" else 1)
+            error = errors[estimate.name] / (value if kind == "precompression" else 1)
             hidden = kind != "surface" and bool(error > HIDDEN)
             if hidden and estimate.identifiable:
                 most = 0.97 / np.tan(needle.tip_angle) if kind == "friction" else np.inf  # K06 (7)
-                ends = (min(FAR * truth[kind], most), truth[kind] / FAR)
+                ends = (min(FAR * value, most), value / FAR)
                 hidden = any(explained(true, estimate.name, end, names, trace, given) for end in ends)
-            rows.append(Row(kind, estimate.identifiable, bool(low <= truth[kind] <= high), hidden))
+            rows.append(Row(kind, estimate.identifiable, bool(low <= value <= high), hidden))
     return rows
 
 
@@ -181,13 +241,20 @@ def main() -> None:
     parser.add_argument("--drift", type=float, default=0.0, help="N")
     parser.add_argument("--rate", type=int, default=200, help="Hz, a divisor of 1600")
     parser.add_argument("--early", action="store_true", help="end half way to the pop")
+    parser.add_argument("--machine", action="store_true", help="moved at one speed")
+    parser.add_argument("--inward", action="store_true", help="end at the greatest depth")
+    parser.add_argument("--walls", type=int, default=1)
+    parser.add_argument("--apart", type=float, default=0.5, help="tip lengths")
+    for option, unit in OTHERS.items():
+        parser.add_argument(option, type=float, default=0.0, help=unit)
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     seeds = range(given.seed, given.seed + given.traces)
     with ProcessPoolExecutor(given.processes, multiprocessing.get_context("spawn")) as pool:
-        one = partial(tried, given=Conditions(given.noise, given.correlation, given.drift, given.rate, given.early))
-        rows = [row for found in pool.map(one, seeds, chunksize=10) for row in found]
+        conditions = Conditions(**{one.name: getattr(given, one.name) for one in fields(Conditions)})
+        one = partial(tried, given=conditions)
+        rows = [row for found in pool.map(one, seeds, chunksize=4) for row in found]
     print(*summary(rows), sep="\n")
 
 

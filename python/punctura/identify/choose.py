@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from punctura import Needle
@@ -12,11 +12,15 @@ from punctura.identify.fit import Start
 from punctura.identify.hops import GAIN, with_hops
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.parameters import Parameters
+from punctura.identify.pops_moved import noise_limit
 from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace
 
 SETTLED = 2  # better optima of the chosen model, found by hops, at most
+MOST_CHANGES = 3  # of the number of membranes, each by one
+FAR = 1.5  # times the noise: then the fits of one membrane more hop, too
+FRESH = 6  # starts of one membrane more
 PASSES = 3  # over the extensions, at most: one may be worth it only after another
 WHITE = 0.8  # of the samples are independent: the residuals have no shape, so no wall is missing
 
@@ -57,7 +61,26 @@ class Choice:
             tied = _of_one_tissue(self.search, current)
             if tied is not current:
                 current = _extended(self.search, tied)
-        self.current = current if self.most is None else _other_number(self.search, current, self.most)
+        for _ in range(0 if self.most is None else MOST_CHANGES):
+            before, current = current, _other_number(self.search, current, self.most or 0)
+            if current is before:
+                break
+        self.current = self._best_of_all(current)
+
+    def _best_of_all(self, current: Candidate) -> Candidate:
+        """The current model, or a better one that was tried: the last one chosen need not be the best."""
+        seen = [current]
+        while better := [
+            one
+            for one in self.search.tried
+            if one not in seen and self._may_be_chosen(one) and self.search.rule.prefers(one, current)
+        ]:
+            current = min(better, key=lambda one: one.worth(current.effective).bic)
+            seen.append(current)
+        return current
+
+    def _may_be_chosen(self, one: Candidate) -> bool:
+        return self.most is not None or one.model.membranes == self.current.model.membranes
 
     def again(self, better: Parameters) -> None:
         """Chooses again from a better optimum of the chosen model.
@@ -149,9 +172,26 @@ def _other_number(search: Search, current: Candidate, most: int) -> Candidate:
         if found is not None and search.rule.prefers(found, best):
             best = found
     if count < most and current.effective < WHITE * len(search.trace):
-        more = replace(current.model, membranes=count + 1)
-        from_these = [Start(p) for p in with_a_wall_more(current.fit)]
-        found = search.fitted(f"{count + 1} membranes", more, from_these) if from_these else None
-        if found is not None and search.rule.prefers(found, best):
-            best = found
+        for found in _one_more(search, current):
+            if search.rule.prefers(found, best):
+                best = found
     return best
+
+
+def _one_more(search: Search, current: Candidate) -> Iterator[Candidate]:
+    """The model with one membrane more, and K06 with so many, with its own extensions where it leaves less.
+
+    An extension may be there only because a wall is missing.
+    """
+    count, plain = current.model.membranes + 1, search.tried[0].model
+    fresh = search.starts(count, False, FRESH)
+    models = [replace(current.model, membranes=count)]
+    models += [replace(plain, membranes=count)] if current.model.words else []
+    far = current.fit.rmse > FAR * noise_limit(search.trace)
+    for model in models:
+        from_these = [replace(one, parameters=model.start(one.parameters)) for one in fresh]
+        if model is models[0]:
+            from_these += [Start(one) for one in with_a_wall_more(current.fit)]
+        found = search.fitted(f"{count} membranes", model, from_these, hops=far)
+        if found is not None and found.fit.sse < current.fit.sse:
+            yield found if model is models[0] else _extended(search, found)

@@ -15,6 +15,7 @@ from punctura.trace.blocks import held_out
 from punctura.trace.information import Information, information
 
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
+TAKEN = 0.05  # of the squares, that a relaxation takes at least where a rest shows one
 RELAXATION = "relaxation"  # begins the names of its parameters
 WORSE = 1.02  # a held-out error that is higher by less than this factor is not worse
 
@@ -61,10 +62,12 @@ class Rule:
 
         Both BIC count the independent samples of the candidate with the smaller error. The smaller model wins unless
         the larger one's BIC is smaller by more than EVIDENCE. Where the force relaxes, no model without a relaxation
-        is better than one with it.
+        is better than one whose relaxation takes a share of the squares.
         """
         if self.air.relaxes and _relaxing(new) != _relaxing(old):
-            return _relaxing(new) and new.fit.sse < old.fit.sse
+            relaxing, rigid = (new, old) if _relaxing(new) else (old, new)
+            if relaxing.fit.sse < (1 - TAKEN) * rigid.fit.sse:
+                return relaxing is new
         effective = min(new, old, key=lambda one: one.fit.sse).effective
         gain = old.worth(effective).bic - new.worth(effective).bic
         if len(new.fit.u) <= len(old.fit.u):

@@ -106,6 +106,20 @@ class Fit:
         return NoiseOfFit(self.residuals, self.jacobian)
 
 
+def in_order(found: Fit) -> Fit:
+    """The same fit, and its other ends, with the walls in the order of their depth: a search may swap them."""
+    others = tuple(other.in_order() for other in found.others)
+    parameters, free = found.parameters, found.free
+    ordered = parameters.in_order()
+    if np.array_equal(ordered.membranes, parameters.membranes):
+        return replace(found, others=others)
+    misfit = found.misfit
+    free = Free(free.names, ordered, float(misfit.trace.depth.max()), misfit.zero)
+    u = free.coordinates(ordered)
+    residuals, jacobian = misfit.residuals(free, u), misfit.jacobian(free, u)
+    return Fit(misfit, free, u, residuals, jacobian, found.evaluations, others)
+
+
 def fit(
     misfit: Misfit, names: Sequence[str], start: Parameters, blurs: Sequence[int] = (0,), evaluations: int = 200
 ) -> Fit:

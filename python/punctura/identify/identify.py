@@ -15,7 +15,7 @@ from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.doubts import Doubts, doubts
-from punctura.identify.fit import Fit, Misfit, Start, best_fit
+from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
@@ -164,7 +164,7 @@ def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> F
     """
     misfit = Misfit(trace, few.parameters, zero=few.misfit.zero)
     ends = [Start(parameters) for parameters in (few.parameters, *few.others, *better)]
-    return with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends)))
+    return in_order(with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends))))
 
 
 def _pops(trace: Trace, segments: Segments) -> int:

@@ -70,6 +70,11 @@ class Parameters:
             vector[list(indices(name, len(self.membranes)))] = value
         return self.with_vector(vector)
 
+    def in_order(self) -> Parameters:
+        """The same walls in the order of their depth."""
+        order = np.argsort(self.membranes[:, MEMBRANE.index("surface")], kind="stable")
+        return replace(self, membranes=self.membranes[order])
+
 
 def default_membrane() -> Array:
     """A membrane of K06 without values: every extension is off."""

@@ -11,7 +11,7 @@ import numpy as np
 from punctura import Needle
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate, Rule, candidate
-from punctura.identify.fit import Misfit, Start, best_fit
+from punctura.identify.fit import Misfit, Start, best_fit, in_order
 from punctura.identify.hops import with_hops
 from punctura.identify.model import Extension, Model
 from punctura.identify.parameters import Parameters
@@ -50,7 +50,7 @@ class Search:
         try:
             best = best_fit(misfit, model.names, from_these, enough)
             best = with_pops_moved(with_hops(best) if hops else best)
-            found = candidate(name, model, with_contacts_moved(best))
+            found = candidate(name, model, in_order(with_contacts_moved(best)))
         except TraceError:
             if not self.tried:
                 raise
@@ -69,7 +69,11 @@ class Search:
             found += islice(rise_starts(self.trace, self.segments, self.needle, membranes, curved), most)
         misfit = self._misfit(found[0])
         found.sort(key=lambda p: float(np.sum((misfit.forces(p) - self.trace.force) ** 2)))
-        return [Start(parameters, blurred=True) for parameters in found[:most]]
+        kept: list[Parameters] = []
+        for one in found:
+            if len(kept) < most and not any(np.allclose(one.vector(), other.vector()) for other in kept):
+                kept.append(one)
+        return [Start(parameters, blurred=True) for parameters in kept]
 
 
 def seen(segments: Segments, extension: Extension, model: Model) -> bool:

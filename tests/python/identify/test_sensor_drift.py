@@ -29,7 +29,9 @@ def test_a_drift_is_not_taken_for_a_relaxation_and_is_named(monkeypatch):
     noise = 0.01 * rng.normal(size=n) + 0.03 * TOOL["correlated"](rng, n, float(np.exp(-1 / 200)))
     made = thinned(Trace(clean.depth, clean.force + noise, clean.time))
     row = default_membrane()
-    row[:5] = [truth[kind] for kind in ("surface", "stiffness", "precompression", "friction", "thickness")]
+    row[:5] = [
+        truth[f"membrane[0].{kind}"] for kind in ("surface", "stiffness", "precompression", "friction", "thickness")
+    ]
     start = Parameters(needle, np.array([row]), default_coupling(truth["coupling_stiffness"]))
     rule, misfit, (small, large) = Rule(made, segment(made)), Misfit(made, start), models(needle)
     one = candidate("K06", small, fit(misfit, small.names, start))
