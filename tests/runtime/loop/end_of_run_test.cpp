@@ -250,7 +250,7 @@ TEST_CASE("run() arms, and ends with the device's last tick or with a fault") {
   const StrokesMotion once({{0, 5e-3, 0}, {0, -9e-3, 0}, 1, 0.5, 0.5, 0}, 1);
   SimulatedOptions options;
   options.real_time = false;
-  for (const std::uint64_t ticks : {3200, 0}) {  // 0: endless
+  for (const std::uint64_t ticks : {3200U, 0U}) {  // 0: endless
     options.ticks = ticks;
     const auto device = std::make_shared<SimulatedDevice>(once, options);
     if (ticks == 0) device->spoil([](DeviceSample& sample) { sample.healthy = false; });
