@@ -22,7 +22,7 @@ from punctura.identify.doubts import doubts
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
-from punctura.rivals.hold_out import second_insertion
+from punctura.rivals.hold_out import REPEAT, second_insertion
 from punctura.trace import Trace, segment
 from punctura.trace.numbers import numbers_of
 from validation_pictures import COLOURS, save
@@ -163,8 +163,8 @@ def prediction(axes: Axes) -> None:
     where = 1e3 * trace.depth[second]
     axes.plot(1e3 * trace.depth[~second], trace.force[~second], color="#d8d8d8", lw=0.8, label="first insertion")
     axes.plot(where, trace.force[second], color=COLOURS["pale"], lw=0.8, label="second insertion, not seen by the fit")
-    for name, colour in (("k06", COLOURS["good"]), ("exponential", COLOURS["bad"])):
-        one = told[name]
+    best_rival = min((one for one in told.values() if one.name not in ("k06", REPEAT)), key=lambda one: one.rmse)
+    for one, colour in ((told["k06"], COLOURS["good"]), (best_rival, COLOURS["bad"])):
         label = f"{one.title}: error {1e3 * one.rmse:.0f} mN"
         axes.plot(where, one.force, color=colour, lw=1.1, label=label)
     axes.set(xlabel="depth, mm", ylabel="force, N", ylim=(-0.6, 1.7))
