@@ -12,6 +12,8 @@ struct punctura_servo : Stepper<SceneServo> {
   using Stepper::Stepper;
 };
 PUNCTURA_STEPPER(servo)
+PUNCTURA_CALL(servo, arm)
+PUNCTURA_CALL(servo, disarm)
 
 namespace {
 
@@ -92,18 +94,6 @@ punctura_status punctura_servo_new(const punctura_scene* scene, const punctura_l
     made = std::make_unique<punctura_servo>(std::move(*built));
     return ok;
   });
-}
-
-punctura_status punctura_servo_arm(punctura_servo* servo) {
-  if (!servo) return PUNCTURA_BAD_ARGUMENT;
-  servo->stepping().arm();
-  return ok;
-}
-
-punctura_status punctura_servo_disarm(punctura_servo* servo) {
-  if (!servo) return PUNCTURA_BAD_ARGUMENT;
-  servo->stepping().disarm();
-  return ok;
 }
 
 punctura_status punctura_servo_step(punctura_servo* servo, const punctura_sample* sample, punctura_record* record) {

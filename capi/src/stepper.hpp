@@ -132,13 +132,15 @@ punctura_status step_in_space(Object& object, const double position[3], const do
 }  // namespace punctura::c
 
 // The functions of punctura.h that all steppers have. A name of C needs a macro.
+#define PUNCTURA_CALL(name, call)                                    \
+  punctura_status punctura_##name##_##call(punctura_##name* given) { \
+    if (!given) return PUNCTURA_BAD_ARGUMENT;                        \
+    given->stepping().call();                                        \
+    return ok;                                                       \
+  }
 #define PUNCTURA_STEPPER(name)                                                                        \
   void punctura_##name##_free(punctura_##name* given) { delete given; }                               \
-  punctura_status punctura_##name##_reset(punctura_##name* given) {                                   \
-    if (!given) return PUNCTURA_BAD_ARGUMENT;                                                         \
-    given->stepping().reset();                                                                        \
-    return ok;                                                                                        \
-  }                                                                                                   \
+  PUNCTURA_CALL(name, reset)                                                                          \
   punctura_status punctura_##name##_commit(punctura_##name* given) {                                  \
     return given ? given->commit() : PUNCTURA_BAD_ARGUMENT;                                           \
   }                                                                                                   \

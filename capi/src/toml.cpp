@@ -23,8 +23,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
-#include <optional>
 
 #include "punctura/model/decimal.hpp"
 #include "punctura/scene/by_path.hpp"
@@ -171,30 +169,21 @@ void read_file(const SceneText& text, const toml::table& file, Scene& scene, std
     if (const auto key = reader.keys.find(p.path); key != reader.keys.end()) p.path = key->second;
 }
 
+void read_text(std::string_view given, Scene& scene, std::vector<Problem>& problems) {
+  const SceneText text(given);
+  if (const auto beyond = text.excess(); !beyond.empty()) return problems.push_back({"text", not_given, beyond});
+  const toml::parse_result file = toml::parse(text.all());
+  if (file) return read_file(text, file.table(), scene, problems);
+  const auto at = file.error().source().begin;
+  const std::string path = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
+  problems.push_back({path, not_given, "this is not TOML: " + std::string(file.error().description())});
+}
+
 }  // namespace
 }  // namespace punctura::c
 
-using namespace punctura::c;
-using punctura::not_given;
-
 punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene) {
-  return guarded([&] {
-    if (!text || !scene) return null_pointer();
-    const SceneText lines(std::string_view(text, size));
-    if (const auto beyond = lines.excess(); !beyond.empty()) return fail({{"text", not_given, beyond}});
-    const toml::parse_result file = toml::parse(lines.all());
-    if (!file) {
-      const auto at = file.error().source().begin;
-      const std::string path = "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
-      return fail({{path, not_given, "this is not TOML: " + std::string(file.error().description())}});
-    }
-    auto made = std::make_unique<punctura_scene>(punctura_scene{});
-    std::vector<punctura::Problem> problems;
-    read_file(lines, file.table(), made->scene, problems);
-    if (!problems.empty()) return fail(std::move(problems));
-    *scene = made.release();
-    return ok;
-  });
+  return punctura::c::scene_from(text, size, scene, punctura::c::read_text);
 }
 
 #else

@@ -1,5 +1,7 @@
 // Scenes from lines "path = value" in SI units. Needs no TOML reader: an FMU carries its scene in this form.
-#include <memory>
+#include <algorithm>
+#include <optional>
+#include <string>
 
 #include "punctura/model/decimal.hpp"
 #include "punctura/scene/by_path.hpp"
@@ -47,22 +49,12 @@ void read_lines(std::string_view text, Scene& scene, std::vector<Problem>& probl
     else
       *place = *number;
   });
+  if (problems.empty()) problems = check(scene);
 }
 
 }  // namespace
 }  // namespace punctura::c
 
-using namespace punctura::c;
-
 punctura_status punctura_scene_from_values(const char* text, size_t size, punctura_scene** scene) {
-  return guarded([&] {
-    if (!text || !scene) return null_pointer();
-    auto made = std::make_unique<punctura_scene>(punctura_scene{});
-    std::vector<punctura::Problem> problems;
-    read_lines(std::string_view(text, size), made->scene, problems);
-    if (problems.empty()) problems = check(made->scene);
-    if (!problems.empty()) return fail(std::move(problems));
-    *scene = made.release();
-    return ok;
-  });
+  return punctura::c::scene_from(text, size, scene, punctura::c::read_lines);
 }

@@ -71,8 +71,6 @@ class LawBatch : public LineBatch, public OneThread {
     LineBatch::describe(parameters);
     for (const Law& one : laws_->all) std::visit([&](const auto& law) { law.pieces().describe(parameters); }, one);
   }
-  std::vector<std::byte> save() const { return save_state(*this); }
-  bool load(std::span<const std::byte> state) { return load_state(*this, state); }
   nb::tuple arguments() const {
     return nb::make_tuple(laws_->argument(), couplings_.argument(), period(), Word(solver()), trials());
   }
@@ -152,17 +150,9 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
       nb::cast<bool>(numpy.attr("shares_memory")(out, given)))
     throw nb::value_error("out overlaps p: give p itself, or an array of its own");
   const Grid<double> force{array.data(), array.stride(0), array.stride(1)};
-  batch::RunOptions options;
-  options.threads = threads_from(threads);
-  options.block = count_from(block, "block", 1, 1u << 20);
-  options.code = &code_named(instructions);
   const Progress told(progress);
-  options.watch = [&](std::size_t done, std::size_t all) {
-    const WithLock lock;
-    if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    told.tell(done, all);
-    return true;
-  };
+  batch::RunOptions options = options_of(threads, instructions, told);
+  options.block = count_from(block, "block", 1, 1u << 20);
   const OneThread::Running running(self);
   LineBatch::Outcome outcome;
   {

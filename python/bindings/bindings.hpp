@@ -8,10 +8,13 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "named.hpp"
@@ -44,31 +47,12 @@ struct nb::detail::type_caster<double> {
 
 namespace punctura::bindings {
 
-void bind_model(nb::module_&);
-void bind_profile_law(nb::module_&);
-void bind_tissue_law(nb::module_&);
-void bind_proxy(nb::module_&);
-void bind_syringe(nb::module_&);
-void bind_membrane(nb::module_&);
-void bind_scene(nb::module_&);
-void bind_scene_keys(nb::module_&);
-void bind_insertion(nb::module_&);
-void bind_events(nb::module_&);
-void bind_trace(nb::module_&);
-void bind_plant(nb::module_&);
-void bind_experiment(nb::module_&);
-void bind_rivals(nb::module_&);
-void bind_fleet(nb::module_&);
-void bind_live_estimate(nb::module_&);
-void bind_limits(nb::module_&);
-void bind_tick_table(nb::module_&);
-void bind_thumb(nb::module_&);
-void bind_runtime(nb::module_&);
-void bind_python_devices(nb::module_&);
-void bind_devices(nb::module_&);
-void bind_replay(nb::module_&);
-void bind_batch(nb::module_&);
-void bind_scene_batch(nb::module_&);
+/// Defines what a file of this folder binds.
+using Bind = void(nb::module_&);
+Bind bind_model, bind_profile_law, bind_proxy, bind_syringe, bind_membrane, bind_tissue_law, bind_scene,
+    bind_scene_keys, bind_insertion, bind_events, bind_trace, bind_plant, bind_experiment, bind_rivals, bind_fleet,
+    bind_live_estimate, bind_limits, bind_tick_table, bind_thumb, bind_runtime, bind_python_devices, bind_devices,
+    bind_replay, bind_batch, bind_scene_batch;
 /// Makes the TypeErrors of all functions of the module name the wrong argument.
 void explain_calls(nb::module_&);
 
@@ -97,6 +81,19 @@ nb::object to_numpy(std::vector<T>&& buffer, const std::vector<std::size_t>& sha
   return nb::cast(nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), owner));
 }
 
+/// A NumPy array of one number of each row, of the given shape or (n,). get: a member of a row, or a function of it.
+template <typename Row, typename Get>
+nb::object column(const std::vector<Row>& rows, Get get, std::vector<std::size_t> shape = {}) {
+  using Value = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
+  using Number = std::conditional_t<std::is_enum_v<Value> || std::is_same_v<Value, bool>, std::uint8_t, Value>;
+  std::vector<Number> numbers;
+  numbers.reserve(rows.size());
+  for (const Row& row : rows) numbers.push_back(static_cast<Number>(std::invoke(get, row)));
+  if (shape.empty()) shape = {rows.size()};
+  const nb::object array = to_numpy(std::move(numbers), shape);
+  return std::is_same_v<Value, bool> ? array.attr("view")("bool") : array;
+}
+
 /// The rows of an (n, 3) array, or a (3,) array repeated for all n rows.
 class Rows {
  public:
@@ -112,32 +109,40 @@ class Rows {
   std::size_t stride_;
 };
 
-/// Laws that keep the arguments of their constructor.
-struct GivenThinLaw : ThinLaw {
+// Laws that keep the arguments of their constructor.
+struct ThinArguments {
+  Needle needle;
+  Membrane membrane;
+};
+struct ThickArguments {
+  Needle needle;
+  Membrane membrane;
+  double obliquity = 0;
+};
+struct TissueArguments {
+  Needle needle;
+  Membrane membrane;
+  Tissue tissue;
+  double obliquity = 0;
+};
+struct GivenThinLaw : ThinLaw, ThinArguments {
   using Law = ThinLaw;
-  Needle needle;
-  Membrane membrane;
+  explicit GivenThinLaw(const ThinArguments& a) : Law(a.needle, a.membrane), ThinArguments(a) {}
 };
-struct GivenThickLaw : ThickLaw {
+struct GivenThickLaw : ThickLaw, ThickArguments {
   using Law = ThickLaw;
-  Needle needle;
-  Membrane membrane;
-  double obliquity;
+  explicit GivenThickLaw(const ThickArguments& a) : Law(a.needle, a.membrane, a.obliquity), ThickArguments(a) {}
 };
-
+struct GivenTissueLaw : TissueLaw, TissueArguments {
+  using Law = TissueLaw;
+  explicit GivenTissueLaw(const TissueArguments& a)
+      : Law(a.needle, a.membrane, a.tissue, std::cos(a.obliquity)), TissueArguments(a) {}
+};
 struct GivenProfileLaw : ProfileLaw {
   using Law = ProfileLaw;
   std::vector<double> depth, lower, upper;
   double obliquity;
 };
-struct GivenTissueLaw : TissueLaw {
-  using Law = TissueLaw;
-  Needle needle;
-  Membrane membrane;
-  Tissue tissue;
-  double obliquity;
-};
-
 /// format: of Python's str.format, with the object as {0}: "<{0.__class__.__name__} of {0.scene.name!r}>".
 template <typename T, typename... Options>
 void def_repr(nb::class_<T, Options...>& cls, const char* format) {

@@ -30,8 +30,7 @@ std::shared_ptr<Device> opened(const std::string& backend, double rate, const st
                                const std::string& library, int priority, int processor) {
   const WithoutLock release;
   OpenOptions options{rate, device, library};
-  options.realtime.priority = priority;
-  options.realtime.processor = processor;
+  options.realtime = {.priority = priority, .processor = processor};
   return open_device(backend, options);
 }
 

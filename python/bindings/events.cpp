@@ -58,8 +58,6 @@ struct BatchFinder : EventFinder, OneThread {
     EventFinder::describe(parameters);
     parameters.numbers(rate);
   }
-  std::vector<std::byte> save() const { return save_state(*this); }
-  bool load(std::span<const std::byte> state) { return load_state(*this, state); }
   nb::tuple arguments() const {
     return nb::make_tuple(scene(), rate, waits_for_scene() ? nb::cast(newest_scene()) : nb::none());
   }

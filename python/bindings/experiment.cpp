@@ -101,9 +101,10 @@ void bind_experiment(nb::module_& m) {
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro("scene", &AnyExperiment::scene)
-      .def_prop_ro("ticks", resting<AnyExperiment>(&AnyExperiment::ticks), "Number of ticks so far")
       .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")
       .def("move_to", &AnyExperiment::move_to, nb::arg("position"), "Moves the Target, m. Raises ValueError.");
+  const Getters get{experiment};
+  get("ticks", "Number of ticks so far", &AnyExperiment::ticks);
 }
 
 }  // namespace punctura::bindings

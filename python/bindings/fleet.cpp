@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -81,15 +82,9 @@ class Fleet : public OneThread {
     nb::list trials;
     for (std::size_t i = 0; i < size(); ++i) {
       const batch::TrialHistory& h = fleet_.history(i);
-      std::vector<double> speed;
-      std::vector<std::uint64_t> ticks;
-      for (const auto& move : h.moves) {
-        speed.push_back(move.speed);
-        ticks.push_back(move.ticks);
-      }
-      const std::size_t n = h.moves.size();
-      trials.append(nb::make_tuple(h.scene, to_array(h.start), h.seed, to_numpy(std::move(speed), {n}),
-                                   to_numpy(std::move(ticks), {n}), h.begun));
+      using Move = batch::TrialHistory::Move;
+      trials.append(nb::make_tuple(h.scene, to_array(h.start), h.seed, column(h.moves, &Move::speed),
+                                   column(h.moves, &Move::ticks), h.begun));
     }
     return trials;
   }
@@ -104,9 +99,9 @@ class Fleet : public OneThread {
 
   Object<"numpy.typing.NDArray[numpy.bool_]"> in_lanes() const {
     must_rest();
-    std::vector<std::uint8_t> lanes;
-    for (std::size_t i = 0; i < size(); ++i) lanes.push_back(fleet_.in_lanes(i) ? 1 : 0);
-    return nb::cast(to_numpy(std::move(lanes), {size()})).attr("astype")("bool");
+    std::vector<std::size_t> trials(size());
+    std::iota(trials.begin(), trials.end(), std::size_t{0});
+    return column(trials, [this](std::size_t i) { return fleet_.in_lanes(i); });
   }
 
  private:
@@ -144,11 +139,6 @@ class Fleet : public OneThread {
       records.push_back(fleet_.record(i, ticks));
       m = std::max(m, records.back().depth.size());
     }
-    const auto column = [&](double TrialRecord::* member) {
-      std::vector<double> values;
-      for (const TrialRecord& record : records) values.push_back(record.*member);
-      return to_numpy(std::move(values), {n});
-    };
     const auto table = [&](std::vector<double> TrialRecord::* member) {
       std::vector<double> values(n * m, std::numeric_limits<double>::quiet_NaN());
       for (std::size_t i = 0; i < n; ++i)
@@ -156,15 +146,13 @@ class Fleet : public OneThread {
                   values.begin() + static_cast<std::ptrdiff_t>(i * m));
       return to_numpy(std::move(values), {n, m});
     };
-    std::vector<std::uint8_t> faults;
-    for (const TrialRecord& record : records) faults.push_back(static_cast<std::uint8_t>(record.fault));
     nb::dict columns;
-    columns["force"] = column(&TrialRecord::force);
-    columns["lowest_force"] = column(&TrialRecord::lowest_force);
-    columns["highest_force"] = column(&TrialRecord::highest_force);
-    columns["travel"] = column(&TrialRecord::travel);
-    columns["speed"] = column(&TrialRecord::speed);
-    columns["fault"] = to_numpy(std::move(faults), {n});
+    columns["force"] = column(records, &TrialRecord::force);
+    columns["lowest_force"] = column(records, &TrialRecord::lowest_force);
+    columns["highest_force"] = column(records, &TrialRecord::highest_force);
+    columns["travel"] = column(records, &TrialRecord::travel);
+    columns["speed"] = column(records, &TrialRecord::speed);
+    columns["fault"] = column(records, &TrialRecord::fault);
     columns["depth"] = table(&TrialRecord::depth);
     columns["deepest"] = table(&TrialRecord::deepest);
     return columns;

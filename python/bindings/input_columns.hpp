@@ -14,7 +14,7 @@ class InputColumns {
   explicit InputColumns(const nb::object& columns) {
     const nb::object as_array = nb::module_::import_("numpy").attr("ascontiguousarray");
     rows_ = nb::len(nb::object(columns["tick"]));
-    each([&](const auto& field, auto& values) {
+    each(*this, [&](const auto& field, auto& values) {
       using T = typename std::remove_reference_t<decltype(values)>::value_type;
       const nb::object given = columns[field.name];
       const auto array = nb::cast<nb::ndarray<nb::numpy, const T, nb::c_contig, nb::device::cpu>>(
@@ -28,7 +28,7 @@ class InputColumns {
 
   /// Copies the sample and the commands of a row into a snapshot.
   void read(std::size_t row, Snapshot& into) const {
-    each([&](const auto& field, const auto& values) {
+    each(*this, [&](const auto& field, const auto& values) {
       auto& value = field.get(into);
       if constexpr (width<decltype(field)> == 3)
         std::copy_n(&values[3 * row], 3, value.begin());
@@ -42,7 +42,7 @@ class InputColumns {
   static constexpr std::size_t width = FieldStore<Field>::width;
 
   template <typename Self, typename Do>
-  static void each_of(Self& self, Do&& act) {
+  static void each(Self& self, Do&& act) {
     for_each_field(tick_table, [&](const auto& field, auto i) {
       using F = std::remove_cvref_t<decltype(field)>;
       if constexpr (F::part == TickPart::snapshot) {
@@ -50,14 +50,6 @@ class InputColumns {
           if (field.use & use_input) act(field, std::get<i>(self.columns_));
       }
     });
-  }
-  template <typename Do>
-  void each(Do&& act) {
-    each_of(*this, act);
-  }
-  template <typename Do>
-  void each(Do&& act) const {
-    each_of(*this, act);
   }
 
   ColumnsOf<decltype(tick_table)> columns_;

@@ -15,15 +15,8 @@ struct SceneInsertion : Insertion, OneThread {
   explicit SceneInsertion(Scene given) : Insertion(build_insertion(given)), scene(std::move(given)) {}
   Scene scene;
 
-  std::vector<std::byte> save() const { return save_state<Insertion>(*this); }
-  bool load(std::span<const std::byte> state) { return load_state<Insertion>(*this, state); }
   nb::tuple arguments() const { return nb::make_tuple(scene); }
 };
-
-std::array<double, 3> step(Insertion& insertion, const Triple& p, const Triple& axis) {
-  check_places(p.data(), 3, "p");
-  return to_array(insertion.step(Vector3d(p), insertion.uses_axis() ? direction(axis) : Vector3d()));
-}
 
 TicksObject run(SceneInsertion& insertion, const ArrayLike& positions, const ArrayLike& axis,
                 const ProgressArgument& progress) {
@@ -57,41 +50,20 @@ void bind_insertion(nb::module_& m) {
   def_reset(insertion);
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
   def_init(insertion, &make_insertion, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
+  def_steps_in_space<Insertion>(insertion);
   insertion.def_ro("scene", &SceneInsertion::scene)
-      .def(
-          "step",
-          [](SceneInsertion& self, const Triple& p, const Triple& axis) {
-            self.must_rest();
-            return step(self, p, axis);
-          },
-          nb::arg("p"), nb::arg("axis"),
-          "Makes one tick. Returns the force on the device, N.\n\n"
-          "p: measured position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
-      .def(
-          "peek",
-          [](const SceneInsertion& self, const Triple& p, const Triple& axis) {
-            self.must_rest();
-            Insertion copy = self;
-            return step(copy, p, axis);
-          },
-          nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
       .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
            "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
-           "ticks were made and are lost; `state` goes back to an earlier tick.")
-      .def_prop_ro("depths", resting<SceneInsertion>([](const SceneInsertion& i) {
-                     return of_membranes(i, [](const auto& tick) { return tick.depth; });
-                   }),
-                   "Depth of the proxy behind each membrane, last tick, m")
-      .def_prop_ro("phases", resting<SceneInsertion>([](const SceneInsertion& i) {
-                     return of_membranes(i, [](const auto& tick) { return tick.phase; });
-                   }),
-                   "Phase at each membrane in the last tick")
-      .def_prop_ro("tip", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.tip()); }),
-                   "The conditioned position, m")
-      .def_prop_ro("force", resting<SceneInsertion>([](const SceneInsertion& i) { return to_array(i.force()); }),
-                   "The force of the last tick, N");
+           "ticks were made and are lost; `state` goes back to an earlier tick.");
+  const Getters get{insertion};
+  get("depths", "Depth of the proxy behind each membrane, last tick, m",
+      [](auto& i) { return of_membranes(i, [](const auto& tick) { return tick.depth; }); });
+  get("phases", "Phase at each membrane in the last tick",
+      [](auto& i) { return of_membranes(i, [](const auto& tick) { return tick.phase; }); });
+  get("tip", "The conditioned position, m", [](auto& i) { return to_array(i.tip()); });
+  get("force", "The force of the last tick, N", [](auto& i) { return to_array(i.force()); });
 }
 
 }  // namespace punctura::bindings

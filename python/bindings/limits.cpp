@@ -76,12 +76,13 @@ void bind_limits(nb::module_& m) {
        "The device's pose in the scene: point = rotation * (scale * device point) + offset + tip_offset * axis."},
       [](const Placement& made, std::vector<Problem>& problems) { problems = check(made); });
 
-  auto info = StructOf<device_rows>::define(m,
-                                            {.name = "DeviceInfo",
-                                             .doc = "What a device says of itself; NaN where it does not say.",
-                                             .raises = "An omitted value is unknown.",
-                                             .needed = 0},
-                                            unchecked, nb::kw_only());
+  auto info =
+      StructOf<device_rows>::define<DeviceInfo>(m,
+                                                {.name = "DeviceInfo",
+                                                 .doc = "What a device says of itself; NaN where it does not say.",
+                                                 .raises = "An omitted value is unknown.",
+                                                 .needed = 0},
+                                                unchecked, nb::kw_only());
   def_repr(info, StructOf<device_rows>::names());
 }
 

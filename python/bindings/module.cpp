@@ -18,31 +18,12 @@ NB_MODULE(core_of_nanobind, m) {
   m.attr("PuncturaError") = nb::steal(PyErr_NewExceptionWithDoc(
       base.c_str(), "Base class of all exceptions of Punctura. An argument of a wrong type raises TypeError.", nullptr,
       nullptr));
-  bind_model(m);
-  bind_profile_law(m);
-  bind_proxy(m);
-  bind_syringe(m);
-  bind_membrane(m);
-  bind_tissue_law(m);
-  bind_scene(m);
-  bind_scene_keys(m);
-  bind_insertion(m);
-  bind_events(m);
-  bind_trace(m);
-  bind_plant(m);
-  bind_experiment(m);
-  bind_rivals(m);
-  bind_fleet(m);
-  bind_live_estimate(m);
-  bind_limits(m);
-  bind_tick_table(m);
-  bind_thumb(m);
-  bind_runtime(m);
-  bind_python_devices(m);
-  bind_devices(m);
-  bind_replay(m);
-  bind_batch(m);
-  bind_scene_batch(m);
+  for (Bind* bind : {bind_model,          bind_profile_law, bind_proxy,      bind_syringe,   bind_membrane,
+                     bind_tissue_law,     bind_scene,       bind_scene_keys, bind_insertion, bind_events,
+                     bind_trace,          bind_plant,       bind_experiment, bind_rivals,    bind_fleet,
+                     bind_live_estimate,  bind_limits,      bind_tick_table, bind_thumb,     bind_runtime,
+                     bind_python_devices, bind_devices,     bind_replay,     bind_batch,     bind_scene_batch})
+    bind(m);
   explain_calls(m);  // the last: it goes through everything above
 }
 

@@ -31,7 +31,7 @@ inline std::size_t ticks_in(double duration, double rate) {
 /// Makes n ticks.
 template <typename E>
 TicksObject run_experiment(E& experiment, std::size_t n, const ProgressArgument& progress) {
-  ExperimentColumns columns;
+  TickColumns columns({}, true);
   columns.reserve(n, experiment.servo().snapshot().membrane_count);
   make_ticks(
       n,

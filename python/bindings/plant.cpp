@@ -105,29 +105,12 @@ void bind_plant(nb::module_& m) {
 
   auto target =
       nb::class_<Target>(m, "Target", "A target position that move_to() changes in steps. The hand follows smoothly.");
+  def_state(target, [](const Target& t) { return nb::make_tuple(to_array(t.position())); });
   def_repr(target, "<Target at {0.position} m>");
   target
       .def(
           "__init__", [](Target* self, const Triple& position) { new (self) Target(place(position)); },
           nb::arg("position"), "position: m. Raises ValueError.")
-      .def(
-          "__reduce__",
-          [](nb::handle self) {
-            const auto& target = nb::cast<const Target&>(self);
-            return nb::make_tuple(
-                nb::module_::import_("punctura.restore").attr("restored"),
-                nb::make_tuple(self.type(), nb::make_tuple(to_array(target.position())), as_bytes(save_state(target))));
-          },
-          nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
-      .def_prop_rw(
-          "state", [](const Target& self) { return as_bytes(save_state(self)); },
-          [](Target& self, const nb::bytes& state) {
-            if (!load_state(self, as_span(state)))
-              throw nb::value_error(
-                  "these bytes are no state of this Target: they are damaged, or of another version of punctura");
-          },
-          nb::for_getter(nb::sig("def state(self) -> bytes")),
-          nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")), "The complete state as bytes.")
       .def_prop_ro(
           "position", [](const Target& t) { return to_array(t.position()); }, "Where it was moved last, m")
       .def(

@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "law_bounds.hpp"
 #include "punctura/model/validity.hpp"
+#include "state.hpp"
 #include "value.hpp"
 #include "without_lock.hpp"
 
@@ -70,17 +71,15 @@ void bind_profile_law(nb::module_& m) {
            "depth: of the knots, m, ascending. lower: phi_I there, N, 0 or less. upper: phi_O, N. thickness: H, m.\n"
            "obliquity: beta, rad. Raises ConfigurationError.");
   def_value(law, {"depth", "lower", "upper", "thickness", "obliquity"});
-  const auto knots = [&law](const char* name, auto member, const char* doc) {
-    law.def_prop_ro(name, [member](const GivenProfileLaw& l) { return shown_tuple(l.*member); }, doc);
-  };
-  knots("depth", &GivenProfileLaw::depth, "Of the knots, m");
-  knots("lower", &GivenProfileLaw::lower, "phi_I at the knots, N");
-  knots("upper", &GivenProfileLaw::upper, "phi_O at the knots, N");
-  law.def_prop_ro("thickness", &GivenProfileLaw::thickness, "H, m; 0 gives the profile itself")
-      .def_ro("obliquity", &GivenProfileLaw::obliquity, "beta, rad")
-      .def("weights", &weights, nb::arg("depth"),
-           "The weights of the knots at depths (m) of any shape: bounds(depth)[0] is weights(depth) @ lower.\n\n"
-           "Returns an array of shape depth.shape + (knots,). K06 (16)");
+  const Getters get{law};
+  get("depth", "Of the knots, m", [](auto& l) { return shown_tuple(l.depth); });
+  get("lower", "phi_I at the knots, N", [](auto& l) { return shown_tuple(l.lower); });
+  get("upper", "phi_O at the knots, N", [](auto& l) { return shown_tuple(l.upper); });
+  get("thickness", "H, m; 0 gives the profile itself", &GivenProfileLaw::thickness);
+  get("obliquity", "beta, rad", &GivenProfileLaw::obliquity);
+  law.def("weights", &weights, nb::arg("depth"),
+          "The weights of the knots at depths (m) of any shape: bounds(depth)[0] is weights(depth) @ lower.\n\n"
+          "Returns an array of shape depth.shape + (knots,). K06 (16)");
 }
 
 }  // namespace punctura::bindings

@@ -50,7 +50,7 @@ class LineProxy : public OneThread {
     return visit([&](auto proxy) { return proxy.step(depth); });
   }
   TicksObject run(const ArrayLike& depths, const ProgressArgument& progress) {
-    SnapshotColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
+    TickColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
     columns.reserve(nb::len_hint(depths), 1);  // before the depths are copied
     const Input p = input_1d(depths, "p");
     check_places(p.data(), p.size(), "p", 1);
@@ -96,19 +96,33 @@ class LineProxy : public OneThread {
   Proxies proxy_;
 };
 
-/// A proxy in space that keeps its constructor arguments.
-struct SpaceProxy : Proxy3d<ThickLaw>, OneThread {
+struct SpaceArguments {
   Needle needle;
   Membrane membrane;
   Triple point, inward_normal;
   Coupling coupling;
   double period;
+  Solver solver = Solver::exact;
+};
+constexpr std::tuple space_rows{
+    row("needle", &SpaceArguments::needle),
+    row("membrane", &SpaceArguments::membrane),
+    row("point", &SpaceArguments::point, "a, any point of the surface, m."),
+    row("inward_normal", &SpaceArguments::inward_normal, "Direction of any length but 0."),
+    row("coupling", &SpaceArguments::coupling),
+    row("period", &SpaceArguments::period, "T, s."),
+    row("solver", &SpaceArguments::solver),
+};
 
-  std::vector<std::byte> save() const { return save_state<Proxy3d<ThickLaw>>(*this); }
-  bool load(std::span<const std::byte> state) { return load_state<Proxy3d<ThickLaw>>(*this, state); }
-  nb::tuple arguments() const {
-    return nb::make_tuple(needle, membrane, point, inward_normal, coupling, period, Word(solver()));
-  }
+/// A proxy in space that keeps its constructor arguments.
+struct SpaceProxy : Proxy3d<ThickLaw>, OneThread {
+  explicit SpaceProxy(const SpaceArguments& a)
+      : Proxy3d(ThickLaw(a.needle, a.membrane), to_vector(a.point), unit(a.inward_normal, "inward_normal"), a.coupling,
+                a.period, a.solver),
+        given(a) {}
+  SpaceArguments given;
+
+  nb::tuple arguments() const { return StructOf<space_rows>::arguments(given); }
 };
 
 LineProxy make_line(GivenLaw law, Coupling coupling, double period, const Word<Solver>& solver) {
@@ -116,24 +130,6 @@ LineProxy make_line(GivenLaw law, Coupling coupling, double period, const Word<S
   check_coupling(coupling, period, problems);
   raise_if(problems);
   return {std::move(law), coupling, period, solver.at("solver")};
-}
-
-SpaceProxy make_space(Needle needle, Membrane membrane, Triple point, Triple inward_normal, Coupling coupling,
-                      double period, const Word<Solver>& solver) {
-  auto problems = problems_of(needle, membrane);
-  check_coupling(coupling, period, problems);
-  if (!to_vector(point).allFinite())
-    problems.push_back({"point", detail::value_to_show(point), "must be three finite numbers"});
-  raise_if(problems);
-  return {{ThickLaw(needle, membrane), to_vector(point), unit(inward_normal, "inward_normal"), coupling, period,
-           solver.at("solver")},
-          {},
-          needle,
-          membrane,
-          point,
-          inward_normal,
-          coupling,
-          period};
 }
 
 TicksObject run_3d(SpaceProxy& proxy, const ArrayLike& positions, const ArrayLike& axis,
@@ -171,72 +167,47 @@ void bind_proxy(nb::module_& m) {
       .def("run", &LineProxy::run, nb::arg("p"), nb::kw_only(), nb::arg("progress") = nb::none(),
            "Makes n ticks from the present state on. p (n,): depths, m.\n\n"
            "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.\n"
-           "progress and Ctrl-C: see Insertion.run.")
-      .def_prop_ro("force",
-                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.force(); }); }),
-                   "f(k), N")
-      .def_prop_ro("offset",
-                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.offset(); }); }),
-                   "e(k) = q(k) - p(k), m")
-      .def_prop_ro("position",
-                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.position(); }); }),
-                   "q(k), m")
-      .def_prop_ro("depth",
-                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.depth(); }); }),
-                   "The depth at which the band was evaluated, m: q(k), or q*(k) with the paper's solver")
-      .def_prop_ro("phase",
-                   resting<LineProxy>([](const LineProxy& p) { return p.visit([](auto& x) { return x.phase(); }); }));
+           "progress and Ctrl-C: see Insertion.run.");
+  const auto of_line = [get = Getters(line)](const char* name, const char* doc, auto read) {
+    get(name, doc, [read](const LineProxy& p) { return p.visit(read); });
+  };
+  of_line("force", "f(k), N", [](auto& p) { return p.force(); });
+  of_line("offset", "e(k) = q(k) - p(k), m", [](auto& p) { return p.offset(); });
+  of_line("position", "q(k), m", [](auto& p) { return p.position(); });
+  of_line("depth", "The depth at which the band was evaluated, m: q(k), or q*(k) with the paper's solver",
+          [](auto& p) { return p.depth(); });
+  of_line("phase", "", [](auto& p) { return p.phase(); });
 
   auto space =
       nb::class_<SpaceProxy>(m, "Proxy3d", nb::is_final(), "The proxy of one membrane in space. K06 section 3.2, (41)");
-  def_init(space, &make_space, nb::arg("needle"), nb::arg("membrane"), nb::arg("point"), nb::arg("inward_normal"),
-           nb::arg("coupling"), nb::arg("period"), nb::arg("solver") = "exact",
-           "point: a, any point of the surface, m. inward_normal: direction of any length but 0. period: T, s. Raises\n"
-           "ConfigurationError.");
+  StructOf<space_rows>::def_init(space, {.needed = 6}, [](const SpaceArguments& made, std::vector<Problem>& problems) {
+    problems = problems_of(made.needle, made.membrane);
+    check_coupling(made.coupling, made.period, problems);
+    if (!to_vector(made.point).allFinite())
+      problems.push_back({"point", detail::value_to_show(made.point), "must be three finite numbers"});
+  });
   def_state(space);
   def_reset(space,
             "Resets to the state before the first tick. A start inside gives no force until the tip has been "
             "outside.");
   def_repr(space, "<Proxy3d {0.phase.name}: depth {0.depth:g} m, force {0.force} N>");
-  space
-      .def(
-          "step",
-          [](SpaceProxy& proxy, const Triple& p, const Triple& axis) {
-            proxy.must_rest();
-            check_places(p.data(), 3, "p");
-            return to_array(proxy.step(Vector3d(p), direction(axis)));
-          },
-          nb::arg("p"), nb::arg("axis"),
-          "Makes one tick. Returns the force on the device, N.\n\n"
-          "p: position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
-      .def(
-          "peek",
-          [](const SpaceProxy& proxy, const Triple& p, const Triple& axis) {
-            proxy.must_rest();
-            check_places(p.data(), 3, "p");
-            return to_array(Proxy3d<ThickLaw>(proxy).step(Vector3d(p), direction(axis)));
-          },
-          nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.")
-      .def("run", &run_3d, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           "Makes n ticks from the present state on.\n\n"
-           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
-           "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
-           "progress and Ctrl-C: see Insertion.run.")
-      .def_prop_ro("force", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.force()); }), "f(k), N")
-      .def_prop_ro("offset", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.offset()); }),
-                   "e(k) = q(k) - p(k), m")
-      .def_prop_ro("position", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.position()); }),
-                   "q(k), m")
-      .def_prop_ro("direction", resting<SpaceProxy>([](const SpaceProxy& p) { return to_array(p.direction()); }),
-                   "b, the direction at entry, kept while inside")
-      .def_prop_ro("axial_force", resting<SpaceProxy>(&SpaceProxy::axial_force), "b.f(k), N")
-      .def_prop_ro("depth", resting<SpaceProxy>(&SpaceProxy::depth),
-                   "Depth, m. Inside along b: of q(k), or of q*(k) with the paper's solver. Outside along the normal")
-      .def_prop_ro("bounds", resting<SpaceProxy>([](const SpaceProxy& p) {
-                     return std::array<double, 2>{p.band().lower, p.band().upper};
-                   }),
-                   "The band of the axial force, (lower, upper), N; (0, 0) outside")
-      .def_prop_ro("phase", resting<SpaceProxy>(&SpaceProxy::phase));
+  def_steps_in_space<Proxy3d<ThickLaw>>(space);
+  space.def("run", &run_3d, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
+            "Makes n ticks from the present state on.\n\n"
+            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
+            "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
+            "progress and Ctrl-C: see Insertion.run.");
+  const Getters get{space};
+  get("force", "f(k), N", [](auto& p) { return to_array(p.force()); });
+  get("offset", "e(k) = q(k) - p(k), m", [](auto& p) { return to_array(p.offset()); });
+  get("position", "q(k), m", [](auto& p) { return to_array(p.position()); });
+  get("direction", "b, the direction at entry, kept while inside", [](auto& p) { return to_array(p.direction()); });
+  get("axial_force", "b.f(k), N", &SpaceProxy::axial_force);
+  get("depth", "Depth, m. Inside along b: of q(k), or of q*(k) with the paper's solver. Outside along the normal",
+      &SpaceProxy::depth);
+  get("bounds", "The band of the axial force, (lower, upper), N; (0, 0) outside",
+      [](auto& p) { return std::array{p.band().lower, p.band().upper}; });
+  get("phase", "", &SpaceProxy::phase);
 }
 
 }  // namespace punctura::bindings

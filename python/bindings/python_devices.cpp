@@ -29,13 +29,6 @@ std::vector<T> column(const nb::object& given, const char* type, std::size_t n, 
   return {array.data(), array.data() + n};
 }
 
-os::RealtimeSettings asked(int priority, int processor) {
-  os::RealtimeSettings settings;
-  settings.priority = priority;
-  settings.processor = processor;
-  return settings;
-}
-
 void make_replay(ReplayDevice* self, const ArrayLike& positions, const ArrayLike& axes, double rate,
                  const ArrayLike& times, const ArrayLike& sequences, const ArrayLike& held, const ArrayLike& health,
                  const ArrayLike& temperatures, DeviceInfo recorded, bool real_time, int priority, int processor) {
@@ -62,7 +55,7 @@ void make_replay(ReplayDevice* self, const ArrayLike& positions, const ArrayLike
   recorded.rate = rate;
   ReplayOptions options;
   options.real_time = real_time;
-  options.realtime = asked(priority, processor);
+  options.realtime = {.priority = priority, .processor = processor};
   new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
 }
 
@@ -84,7 +77,7 @@ std::tuple<double, double, double> feed(FedDevice& device, const Triple& positio
 
 std::vector<std::string> make_realtime(int priority, int processor) {
   std::vector<std::string> lines;
-  os::add_words(os::make_realtime(asked(priority, processor)), lines);
+  os::add_words(os::make_realtime({.priority = priority, .processor = processor}), lines);
   return lines;
 }
 
@@ -137,7 +130,7 @@ void bind_python_devices(nb::module_& m) {
           "make_realtime",
           [](FedDevice& device, int priority, int processor) {
             const WithoutLock release;
-            return device.make_realtime(asked(priority, processor));
+            return device.make_realtime({.priority = priority, .processor = processor});
           },
           nb::arg("priority") = os::RealtimeSettings{}.priority,
           nb::arg("processor") = os::RealtimeSettings{}.processor,

@@ -6,7 +6,7 @@
 
 #include "bindings.hpp"
 #include "input_columns.hpp"
-#include "model_of.hpp"
+#include "punctura_runtime/loop/step_maker.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"
 #include "ticks.hpp"
@@ -48,7 +48,7 @@ class Replay : public OneThread {
     }
     if (asked != scenes.size()) throw std::invalid_argument("there must be scenes for every tick that took one");
 
-    SnapshotColumns columns;
+    TickColumns columns;
     columns.reserve(given.rows(), step_->guard().snapshot().membrane_count);
     auto taken = scenes.begin();
     const Running running(*this);
@@ -95,7 +95,9 @@ void bind_replay(nb::module_& m) {
       .def(
           "__init__",
           [](Replay* self, const Scene& scene, const GateLimits& gate, const ForceLimits& limits, double spent,
-             const std::vector<AnyRival>& rivals) { new (self) Replay(scene, gate, limits, spent, model_of(rivals)); },
+             const std::vector<AnyRival>& rivals) {
+            new (self) Replay(scene, gate, limits, spent, StepMaker::with_rivals(rivals));
+          },
           nb::arg("scene"), nb::arg("gate"), nb::arg("limits"), nb::arg("spent") = 0.0, nb::kw_only(),
           nb::arg("rivals") = std::vector<AnyRival>(),
           "Starts in the state of a loop before its first tick. scene: at the device's rate. spent: motor load\n"

@@ -4,50 +4,35 @@
 #include "punctura/rivals/rival_insertion.hpp"
 #include "run_in_space.hpp"
 #include "value.hpp"
+#include "word.hpp"
 
 namespace punctura::bindings {
 namespace {
 
-const char* word(Shows shows) {
-  switch (shows) {
-    case Shows::insertion: return "insertion";
-    case Shows::withdrawal: return "withdrawal";
-    case Shows::speeds: return "speeds";
-    default: return "nothing";
-  }
-}
-
 /// Sets the numbers of a rival. Throws ConfigurationError with all problems.
 AnyRival made(const std::string& name, const nb::dict& numbers) {
+  std::string known;
+  const auto add = [&](const char* one) { known += std::string(known.empty() ? "" : ", ") + one; };
   std::optional<AnyRival> rival = AnyRival::named(name);
   if (!rival) {
-    std::string known;
-    AnyRival::for_each_kind([&](const auto& r) { known += std::string(known.empty() ? "" : ", ") + r.name; });
+    AnyRival::for_each_kind([&](const auto& r) { add(r.name); });
     raise_word("rival", name, ("must be one of " + known).c_str());
   }
   std::vector<Problem> problems;
   rival->visit([&](auto& run) {
-    std::size_t used = 0;
-    for (const auto& number : run.rival.numbers()) {
-      if (!numbers.contains(number.name)) continue;
-      ++used;
-      double value = 0;
-      if (!nb::try_cast(numbers[number.name], value))
-        throw nb::type_error((name + "." + number.name + " must be a number").c_str());
-      if (!(value >= number.low && value <= number.high))
-        problems.push_back(
-            {name + "." + number.name, value,
-             nb::cast<std::string>(
-                 nb::str("must be between {:g} and {:g} {}").attr("format")(number.low, number.high, number.unit))});
-      run.rival.*number.value = value;
+    const auto all = run.rival.numbers();
+    for (const auto& number : all) add(number.name);
+    for (const auto& [key, given] : numbers) {
+      const std::string word = nb::str(key).c_str(), path = name + "." + word;
+      const auto number = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == word; });
+      if (number == all.end()) raise_word(path, word, ("is not a parameter of this rival. It has " + known).c_str());
+      double& value = run.rival.*number->value;
+      if (!nb::try_cast(given, value)) throw nb::type_error((path + " must be a number").c_str());
+      if (value >= number->low && value <= number->high) continue;
+      const nb::object bounds =
+          nb::str("must be between {:g} and {:g} {}").attr("format")(number->low, number->high, number->unit);
+      problems.push_back({path, value, nb::cast<std::string>(bounds)});
     }
-    if (used == numbers.size()) return;
-    std::string known;
-    for (const auto& number : run.rival.numbers()) known += std::string(known.empty() ? "" : ", ") + number.name;
-    for (const auto& [key, value] : numbers)
-      if (const std::string given = nb::str(key).c_str();
-          (", " + known + ",").find(" " + given + ",") == std::string::npos)
-        raise_word(name + "." + given, given, ("is not a parameter of this rival. It has " + known).c_str());
   });
   raise_if(problems);
   return *rival;
@@ -81,7 +66,8 @@ struct Path {
   std::size_t n;
 };
 
-Floats resistance(const AnyRival& rival, const Path& path) {
+Floats resistance(const AnyRival& rival, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
+  const Path path(depth, velocity, period);
   std::vector<double> force(path.n);
   rival.visit([&](auto run) {
     run.state = {};
@@ -92,16 +78,17 @@ Floats resistance(const AnyRival& rival, const Path& path) {
 }
 
 /// load() at each row of a layer that is never punctured; 0 in front of it.
-Floats loads(const AnyRival& rival, const Path& path) {
+Floats loads(const AnyRival& rival, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
+  const Path path(depth, velocity, period);
   std::vector<double> load(path.n);
   rival.visit([&](auto run) {
     if constexpr (Punctures<decltype(run.rival)>) {
       run.state = {};
       run.rival.puncture = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < path.n; ++i) {
-        const double depth = path.depth.data()[i];
-        run.step(depth, path.velocity.data()[i], path.at(i));
-        load[i] = depth > 0 ? run.rival.load(run.state, depth) : 0;
+        const double here = path.depth.data()[i];
+        run.step(here, path.velocity.data()[i], path.at(i));
+        load[i] = here > 0 ? run.rival.load(run.state, here) : 0;
       }
     } else {
       throw nb::value_error((std::string(run.rival.name) + " has no puncture").c_str());
@@ -122,7 +109,7 @@ Object<"list[dict[str, typing.Any]]"> kinds() {
       one["high"] = number.high;
       one["default"] = rival.*number.value;
       one["what"] = number.what;
-      one["shows"] = word(number.shows);
+      one["shows"] = Word(number.shows);
       numbers.append(one);
     }
     nb::dict kind;
@@ -184,6 +171,7 @@ void bind_rival(nb::module_& m) {
   auto rival = nb::class_<AnyRival>(m, "Rival", nb::is_final(),
                                     "A force model of another author, with its numbers. docs/rivals.md");
   def_fields(rival, {"name", "numbers"});
+  def_repr(rival, "Rival({0.name!r}, {0.numbers!r})");
   rival
       .def(
           "__init__",
@@ -198,32 +186,17 @@ void bind_rival(nb::module_& m) {
           "name",
           [](const AnyRival& r) { return r.visit([](const auto& run) { return std::string(run.rival.name); }); })
       .def_prop_ro("numbers", &numbers_of, "By name, SI")
-      .def("__repr__",
-           [](nb::handle self) {
-             return "Rival(" + nb::cast<std::string>(nb::repr(self.attr("name"))) + ", " +
-                    nb::cast<std::string>(nb::repr(self.attr("numbers"))) + ")";
-           })
       .def("__hash__",
            [](nb::handle self) {
              return nb::hash(nb::make_tuple(self.attr("name"), nb::tuple(self.attr("numbers").attr("items")())));
            })
-      .def(
-          "resistance",
-          [](const AnyRival& self, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
-            return resistance(self, Path(depth, velocity, period));
-          },
-          nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
-          "The force against the insertion (n,), N, of an untouched layer.\n\n"
-          "depth (n,): m below the surface. velocity (n,): m/s, inwards. period (n,) or a number: s since the row\n"
-          "before. Raises ValueError.")
-      .def(
-          "loads",
-          [](const AnyRival& self, const ArrayLike& depth, const ArrayLike& velocity, const ArrayLike& period) {
-            return loads(self, Path(depth, velocity, period));
-          },
-          nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
-          "What is compared with the number `puncture`, (n,), if the layer is never punctured. Arguments as of\n"
-          "resistance(). Raises ValueError if the rival has no puncture.");
+      .def("resistance", &resistance, nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
+           "The force against the insertion (n,), N, of an untouched layer.\n\n"
+           "depth (n,): m below the surface. velocity (n,): m/s, inwards. period (n,) or a number: s since the row\n"
+           "before. Raises ValueError.")
+      .def("loads", &loads, nb::arg("depth"), nb::arg("velocity"), nb::arg("period"),
+           "What is compared with the number `puncture`, (n,), if the layer is never punctured. Arguments as of\n"
+           "resistance(). Raises ValueError if the rival has no puncture.");
   m.def("rival_kinds", &kinds, "Name, title, source and numbers of each rival.");
 }
 
@@ -239,13 +212,8 @@ void bind_rivals(nb::module_& m) {
   def_reset(scene);
   def_repr(scene, "<RivalInsertion in {0.scene.name!r}>");
   scene
-      .def(
-          "__init__",
-          [](SceneRivals* self, const Scene& given, const std::vector<AnyRival>& rivals) {
-            new (self) SceneRivals(given, rivals);
-          },
-          nb::arg("scene"), nb::arg("rivals"),
-          "rivals: one, or one for each membrane. Raises ConfigurationError or ValueError.")
+      .def(nb::init<Scene, std::vector<AnyRival>>(), nb::arg("scene"), nb::arg("rivals"),
+           "rivals: one, or one for each membrane. Raises ConfigurationError or ValueError.")
       .def_ro("scene", &SceneRivals::scene)
       .def_prop_ro("rivals", [](const SceneRivals& self) { return self.rivals; })
       .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),

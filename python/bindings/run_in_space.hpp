@@ -24,7 +24,7 @@ TicksObject run_in_space(Model& model, OneThread& object, std::initializer_list<
     record.membrane_count = static_cast<std::uint32_t>(model.size());
   else
     record.membrane_count = 1;
-  SnapshotColumns columns(fields);
+  TickColumns columns(fields);
   columns.reserve(nb::len_hint(positions), record.membrane_count);  // before the positions are copied
   const Input p = points(positions, "p");
   const std::size_t n = p.shape(0);
@@ -47,6 +47,37 @@ TicksObject run_in_space(Model& model, OneThread& object, std::initializer_list<
   };
   make_ticks(n, tick, progress);
   return columns.to_ticks(3, !has_scene);
+}
+
+/// One tick. Throws ValueError.
+template <typename Model>
+Triple step_in_space(Model& model, const Triple& p, const Triple& axis) {
+  check_places(p.data(), 3, "p");
+  bool uses_axis = true;
+  if constexpr (requires { model.uses_axis(); }) uses_axis = model.uses_axis();
+  return to_array(model.step(Vector3d(p), uses_axis ? direction(axis) : Vector3d()));
+}
+
+/// Defines step and peek. T is a Model, and a OneThread.
+template <typename Model, typename T>
+void def_steps_in_space(nb::class_<T>& cls) {
+  cls.def(
+         "step",
+         [](T& self, const Triple& p, const Triple& axis) {
+           self.must_rest();
+           return step_in_space(self, p, axis);
+         },
+         nb::arg("p"), nb::arg("axis"),
+         "Makes one tick. Returns the force on the device, N.\n\n"
+         "p: measured position, m. axis: direction of the needle, of any length but 0. Raises ValueError.")
+      .def(
+          "peek",
+          [](const T& self, const Triple& p, const Triple& axis) {
+            self.must_rest();
+            Model copy = self;
+            return step_in_space(copy, p, axis);
+          },
+          nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.");
 }
 
 }  // namespace punctura::bindings

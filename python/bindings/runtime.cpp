@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bindings.hpp"
-#include "model_of.hpp"
 #include "motion.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/motor_rest.hpp"
@@ -23,7 +22,7 @@ struct Listener : OneThread {
   SnapshotRing* ring;
 
   TicksObject read(std::optional<std::size_t> limit) {
-    SnapshotColumns columns;
+    TickColumns columns;
     const Running running(*this);
     {
       const WithoutLock release;
@@ -58,7 +57,7 @@ Object<"LoopReport"> report(const ServoLoop& loop) {
 }
 
 TicksObject as_ticks(const std::vector<Snapshot>& snapshots) {
-  SnapshotColumns columns;
+  TickColumns columns;
   for (const Snapshot& s : snapshots) columns.add(s);
   return columns.to_ticks();
 }
@@ -119,8 +118,7 @@ void bind_runtime(nb::module_& m) {
             made.real_time = real_time;
             made.ticks = ticks;
             made.axis = to_array(unit(axis, "axis"));
-            made.realtime.priority = priority;
-            made.realtime.processor = processor;
+            made.realtime = {.priority = priority, .processor = processor};
             new (self) SimulatedDevice(laid_out(motion, seed), made);
           },
           nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
@@ -158,6 +156,7 @@ void bind_runtime(nb::module_& m) {
   listener
       .def("read", &Listener::read, nb::arg("limit") = nb::none(),
            "Removes and returns the oldest snapshots. limit: maximum number; None for all that are in the ring now.")
+      // Not behind Getters: any thread may read them while another is in read().
       .def_prop_ro(
           "lost", [](const Listener& l) { return l.ring->lost(); },
           "Number of snapshots lost because the ring was full.")
@@ -174,7 +173,7 @@ void bind_runtime(nb::module_& m) {
              const ForceLimits& limits, const Placement& placement, std::shared_ptr<ThumbLoop> thumb,
              const std::vector<AnyRival>& rivals) {
             LoopSettings settings;
-            settings.model = model_of(rivals);
+            settings.model = StepMaker::with_rivals(rivals);
             settings.thumb = std::move(thumb);
             settings.gate = gate;
             settings.limits = limits;
@@ -238,21 +237,13 @@ void bind_runtime(nb::module_& m) {
           "capacity: number of snapshots of the present scene that the ring can hold; default `room`. It is reduced\n"
           "to 32 MB without an error; the listener's `capacity` has the actual number. Snapshots that do not fit\n"
           "are lost and counted in the listener's `lost`.")
-      .def_prop_ro(
-          "room", [](const ServoLoop& loop) { return loop.room(); },
-          "Default capacity of a listener for the present scene: 8 s of snapshots, at most 32 MB.")
       .def_prop_ro("running", &ServoLoop::running)
       .def_prop_ro("over", &ServoLoop::over,
                    "Whether the last run has ended by itself. Its device may still be stopping.")
       .def_prop_ro("silence", &ServoLoop::silence,
                    "Why ticks that ceased have ended the last run, in words; otherwise empty.")
-      .def_prop_ro(
-          "ticks", [](const ServoLoop& loop) { return loop.report().ticks; }, "Number of ticks so far, in all runs")
       .def_prop_ro("device", &ServoLoop::device, nb::rv_policy::reference_internal)
       .def_prop_ro("scene", &ServoLoop::copy_scene, "The running scene, at the device's rate.")
-      .def_prop_ro(
-          "rivals", [](const ServoLoop& loop) { return loop.model().rivals(); },
-          "The force models in place of the scene's law; empty if there are none.")
       .def_prop_ro("gate", &ServoLoop::gate, nb::rv_policy::copy)
       .def_prop_ro("spent", &ServoLoop::spent, "Motor load of the device at the next start, N^2 s.")
       .def_prop_ro("limits", &ServoLoop::limits, nb::rv_policy::copy,
@@ -268,6 +259,13 @@ void bind_runtime(nb::module_& m) {
       .def(
           "fault_history", [](ServoLoop& loop) { return as_ticks(loop.fault_history()); },
           "The last ticks up to the latched fault; empty if there is none.");
+
+  const Getters get{loop};
+  get("room", "Default capacity of a listener for the present scene: 8 s of snapshots, at most 32 MB.",
+      [](auto& l) { return l.room(); });
+  get("ticks", "Number of ticks so far, in all runs", [](auto& l) { return l.report().ticks; });
+  get("rivals", "The force models in place of the scene's law; empty if there are none.",
+      [](auto& l) { return l.model().rivals(); });
 
   // Without this, a loop still held by a daemon thread or an interactive session would leave the last force on its
   // device.

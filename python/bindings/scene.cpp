@@ -157,17 +157,17 @@ void bind_scene(nb::module_& m) {
       m, {"ServoSettings", "Rate of the servo loop, position conditioning and solver. K06 section 4", "servo"},
       [](const ServoSettings& made, std::vector<Problem>& problems) { check(made, problems); });
 
-  auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.")
-                     .def_prop_ro(
-                         "force_scale",
-                         [](const DisplaySettings& d) {
-                           return d.automatic ? ScaleOrWord(Automatic::automatic) : ScaleOrWord(d.force_scale);
-                         },
-                         "How much of the model's force the device gives: a number, or \"automatic\"");
-  def_init(display, &make_display, nb::arg("force_scale") = DisplaySettings{}.force_scale,
-           "force_scale: how much of the model's force the device gives, greater than 0 and at most 1. \"automatic\"\n"
-           "lowers it so that the limits in use never cut the friction along the needle. Raises ConfigurationError.");
-  def_value(display, {"force_scale"});
+  auto display = nb::class_<DisplaySettings>(m, "DisplaySettings", "How a device shows forces that it cannot give.");
+  const auto& field = display_fields[0];
+  const std::string name(field.name), doc = doc_of(field), raises = name + ": " + doc + " Raises ConfigurationError.";
+  display.def_prop_ro(
+      name.c_str(),
+      [](const DisplaySettings& d) {
+        return d.automatic ? ScaleOrWord(Automatic::automatic) : ScaleOrWord(d.force_scale);
+      },
+      doc.c_str());
+  def_init(display, &make_display, nb::arg(field.name.data()) = DisplaySettings{}.force_scale, raises.c_str());
+  def_value(display, {field.name.data()});
 
   def_struct<scene_field_rows>(m,
                                {.name = "SceneField",

@@ -17,22 +17,6 @@ namespace {
 
 using batch::SceneBatch;
 
-/// The column of a member of a struct, as a NumPy array.
-template <typename Struct, typename Member>
-nb::object column(const std::vector<Struct>& all, Member Struct::* member, const std::vector<std::size_t>& shape) {
-  std::vector<Member> numbers(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) numbers[i] = all[i].*member;
-  return to_numpy(std::move(numbers), shape);
-}
-
-/// The same for a member that is a code or a bool.
-template <typename Member>
-nb::object bytes(const std::vector<batch::RunNumbers>& runs, Member batch::RunNumbers::* member) {
-  std::vector<std::uint8_t> codes(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) codes[i] = static_cast<std::uint8_t>(runs[i].*member);
-  return to_numpy(std::move(codes), {runs.size()});
-}
-
 /// Takes over the motion. `kept` holds the arrays of positions.
 SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, std::size_t trials,
                              std::vector<Input>& kept) {
@@ -79,15 +63,7 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
   if (all.seeds.size() != trials) throw nb::value_error("seeds: one for each trial is needed");
 
   const Progress told(progress);
-  batch::RunOptions options;
-  options.threads = threads_from(threads);
-  options.code = &code_named(instructions);
-  options.watch = [&](std::size_t done, std::size_t of) {
-    const WithLock lock;
-    if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    told.tell(done, of);
-    return true;
-  };
+  const batch::RunOptions options = options_of(threads, instructions, told);
   batch::SceneResults results;
   std::optional<batch::TrialProblems> wrong;
   std::vector<double> force;
@@ -117,18 +93,18 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
     raise_if(wrong->problems);
   }
   told.tell(1, 1);
-  const std::vector<std::size_t> of_trial{trials}, of_membrane{trials, scene.membranes.size()};
+  const std::vector<std::size_t> of_membrane{trials, scene.membranes.size()};
   using R = batch::RunNumbers;
   using M = batch::MembraneNumbers;
   nb::dict d;
-  d["peak"] = column(results.runs, &R::peak, of_trial);
-  d["felt_peak"] = column(results.runs, &R::felt_peak, of_trial);
-  d["depth"] = column(results.runs, &R::depth, of_trial);
-  d["work"] = column(results.runs, &R::work, of_trial);
-  d["dwell"] = column(results.runs, &R::dwell, of_trial);
-  d["limited"] = column(results.runs, &R::limited, of_trial);
-  d["fault"] = bytes(results.runs, &R::fault);
-  d["in_lanes"] = bytes(results.runs, &R::in_lanes);
+  d["peak"] = column(results.runs, &R::peak);
+  d["felt_peak"] = column(results.runs, &R::felt_peak);
+  d["depth"] = column(results.runs, &R::depth);
+  d["work"] = column(results.runs, &R::work);
+  d["dwell"] = column(results.runs, &R::dwell);
+  d["limited"] = column(results.runs, &R::limited);
+  d["fault"] = column(results.runs, &R::fault);
+  d["in_lanes"] = column(results.runs, &R::in_lanes);
   d["pops"] = column(results.membranes, &M::pops, of_membrane);
   d["first_pop"] = column(results.membranes, &M::first_pop, of_membrane);
   d["drop"] = column(results.membranes, &M::drop, of_membrane);

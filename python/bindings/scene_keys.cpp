@@ -1,11 +1,14 @@
 // core/punctura/scene: the keys of a scene file, and scenes by the paths of their fields.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 
 #include <tuple>
 
 #include "bindings.hpp"
 #include "punctura/scene/by_path.hpp"
+#include "state.hpp"
+#include "struct.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -71,44 +74,41 @@ nb::dict scene_values(const Scene& scene) {
   return values;
 }
 
+// What Python tells of a key, of its field, and of the field's range.
+constexpr std::tuple key_rows{
+    row("table", &SceneKey::table, "The table that has it; \"\" is the file."),
+    row("key", &SceneKey::key),
+    row("name", &SceneKey::name, "In the core; a column has [] in place of the row: \"profile[].depth\"."),
+    row("kind", &SceneKey::kind),
+    row("words", &SceneKey::words, "Of a word; else empty."),
+    row("group", &SceneKey::group, "The part of a form that has it and is closed at first, or \"\"."),
+    row("instead_of", &SceneKey::instead_of, "The field for which a file has this key or the other; else empty."),
+    row("sparse", &SceneKey::sparse, "Whether a file has it only where it differs from its default."),
+};
+constexpr std::tuple field_rows{row("help", &Field::help), row("symbol", &Field::symbol, "K06's.")};
+constexpr std::tuple range_rows{
+    row("min", &Range::min),
+    row("max", &Range::max),
+    row("min_open", &Range::min_open, "Whether it must be greater than min."),
+    row("max_open", &Range::max_open, "Whether it must be less than max."),
+    row("reason", &Range::reason, "The reason for the bounds."),
+};
+
 }  // namespace
 
 void bind_scene_keys(nb::module_& m) {
   auto key =
       nb::class_<SceneKey>(m, "SceneKey", "A key of a scene file, from the core's tables. Bounds are in SI units.");
   def_repr(key, "<SceneKey {0.key} of [{0.table}]>");
-  key.def_prop_ro(
-         "table", [](const SceneKey& k) { return std::string(k.table); }, "The table that has it; \"\" is the file")
-      .def_ro("key", &SceneKey::key)
-      .def_ro("name", &SceneKey::name, "In the core; a column has [] in place of the row: \"profile[].depth\"")
-      .def_prop_ro(
-          "kind", [](const SceneKey& k) { return std::string(word_of(k.kind)); },
-          "number, number_or_word, vector, column, word, text or gauge")
-      .def_prop_ro("title", [](const SceneKey& k) { return title_of(k.field); })
-      .def_prop_ro("help", [](const SceneKey& k) { return std::string(k.field.help); })
-      .def_prop_ro(
-          "symbol", [](const SceneKey& k) { return std::string(k.field.symbol); }, "K06's")
-      .def_prop_ro("min", [](const SceneKey& k) { return k.field.range.min; })
-      .def_prop_ro("max", [](const SceneKey& k) { return k.field.range.max; })
-      .def_prop_ro(
-          "min_open", [](const SceneKey& k) { return k.field.range.min_open; }, "Whether it must be greater than min")
-      .def_prop_ro(
-          "max_open", [](const SceneKey& k) { return k.field.range.max_open; }, "Whether it must be less than max")
-      .def_prop_ro(
-          "reason", [](const SceneKey& k) { return k.field.range.reason; }, "The reason for the bounds")
-      .def_prop_ro(
-          "words", [](const SceneKey& k) { return std::vector<std::string>(k.words.begin(), k.words.end()); },
-          "Of a word; else empty")
-      .def_prop_ro("default", &default_of, nb::sig("def default(self) -> float | str | tuple[()] | None"),
-                   "In SI; None if the file must have the key")
-      .def_prop_ro("required", &SceneKey::required)
-      .def_prop_ro(
-          "group", [](const SceneKey& k) { return std::string(k.group); },
-          "The part of a form that has it and is closed at first, or \"\"")
-      .def_prop_ro(
-          "instead_of", [](const SceneKey& k) { return std::string(k.instead_of); },
-          "The field for which a file has this key or the other; else empty")
-      .def_ro("sparse", &SceneKey::sparse, "Whether a file has it only where it differs from its default");
+  for_each_row(key_rows, [&](const auto& row) { def_member(key, row); });
+  for_each_row(field_rows, [&](const auto& row) { def_member(key, row, &SceneKey::field); });
+  for_each_row(range_rows,
+               [&](const auto& row) { def_member(key, row, [](auto& k) -> const auto& { return k.field.range; }); });
+  const Getters get{key};
+  get("title", "", [](auto& k) { return title_of(k.field); });
+  get("default", "In SI; None if the file must have the key", &default_of,
+      nb::sig("def default(self) -> float | str | tuple[()] | None"));
+  get("required", "", &SceneKey::required);
 
   m.def("scene_keys", &scene_keys, "All keys of a scene file, in the order of the file.");
   m.def(

@@ -1,13 +1,15 @@
-// The instruction set of a batch, by its name.
+// The instruction set of a batch, by its name, and the options of a run.
 #pragma once
-
-#include <nanobind/nanobind.h>
 
 #include <cstdlib>
 #include <optional>
 #include <string>
 
+#include "arguments.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
+#include "punctura_runtime/batch/run_options.hpp"
+#include "ticks.hpp"
+#include "without_lock.hpp"
 
 namespace punctura::bindings {
 
@@ -22,6 +24,21 @@ inline const batch::LineCode& code_named(const std::optional<std::string>& given
   throw nanobind::value_error(("instructions: this processor or this build has no \"" + name + "\": choose one of " +
                                names + (given ? "" : " in the environment variable PUNCTURA_SIMD, or remove it"))
                                   .c_str());
+}
+
+/// The options of a run that tells its progress and ends at Ctrl-C.
+inline batch::RunOptions options_of(const nb::object& threads, const std::optional<std::string>& instructions,
+                                    const Progress& told) {
+  batch::RunOptions options;
+  options.threads = threads_from(threads);
+  options.code = &code_named(instructions);
+  options.watch = [&told](std::size_t done, std::size_t all) {
+    const WithLock lock;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    told.tell(done, all);
+    return true;
+  };
+  return options;
 }
 
 }  // namespace punctura::bindings

@@ -57,69 +57,90 @@ class OneThread {
   std::thread::id runner_{};
 };
 
-/// A getter of T, which derives from OneThread: throws RuntimeError while run() is in progress in another thread.
-template <typename T, typename Getter>
-auto resting(Getter getter) {
-  return [getter](const T& self) {
-    self.must_be_readable();
-    return std::invoke(getter, self);
-  };
-}
+/// Defines read-only properties. get: a member, or a function of the object. Those of a OneThread throw RuntimeError
+/// while run() is in progress in another thread.
+template <typename T>
+struct Getters {
+  nb::class_<T>& cls;
+
+  template <typename Get, typename... Extra>
+  const Getters& operator()(const char* name, const char* doc, Get get, const Extra&... extra) const {
+    const auto read = [get](const T& self) {
+      if constexpr (std::is_base_of_v<OneThread, T>) self.must_be_readable();
+      return std::invoke(get, self);
+    };
+    cls.def_prop_ro(name, read, doc, extra...);
+    return *this;
+  }
+};
 
 inline nb::bytes as_bytes(const std::vector<std::byte>& state) { return nb::bytes(state.data(), state.size()); }
 inline std::span<const std::byte> as_span(const nb::bytes& state) {
   return {static_cast<const std::byte*>(state.data()), state.size()};
 }
 
-/// T derives from OneThread and has `reset()`.
+/// Throws RuntimeError while run() of a OneThread is in progress.
+template <typename T>
+void must_rest(const T& object) {
+  if constexpr (std::is_base_of_v<OneThread, T>) object.must_rest();
+}
+
+/// T has `reset()`.
 template <typename T>
 void def_reset(nb::class_<T>& cls, const char* doc = "Resets to the state before the first tick.") {
   cls.def(
       "reset",
       [](T& self) {
-        self.must_rest();
+        must_rest(self);
         self.reset();
       },
       doc);
 }
 
-/// T derives from OneThread and has `save()`, `load(bytes)` and `arguments()`, the tuple of its constructor arguments.
+/// The state of a T that has `save()` and `load(bytes)`, or an archive.
 template <typename T>
-void def_state(nb::class_<T>& cls) {
+nb::bytes saved(const T& object) {
+  must_rest(object);
+  if constexpr (requires { object.save(); })
+    return as_bytes(object.save());
+  else
+    return as_bytes(save_state(object));
+}
+template <typename T>
+bool loaded(T& object, const nb::bytes& state) {
+  must_rest(object);
+  if constexpr (requires { object.load(as_span(state)); })
+    return object.load(as_span(state));
+  else
+    return load_state(object, as_span(state));
+}
+
+/// Defines copies, pickling and `state`. arguments: gives the tuple of an object's constructor arguments.
+template <typename T, typename Arguments>
+void def_state(nb::class_<T>& cls, Arguments arguments) {
   const auto name = nb::cast<std::string>(cls.attr("__name__"));
-  static const std::string deepcopy = "def __deepcopy__(self, memo: dict[int, typing.Any]) -> " + name;
-  cls.def(
-         "__copy__",
-         [](const T& self) {
-           self.must_rest();
-           return T(self);
-         },
-         "A copy with the same state. Both continue with identical results, bit for bit.")
+  const std::string deepcopy = "def __deepcopy__(self, memo: dict[int, typing.Any]) -> " + name;
+  const auto copy = [](const T& self) {
+    must_rest(self);
+    return T(self);
+  };
+  cls.def("__copy__", copy, "A copy with the same state. Both continue with identical results, bit for bit.")
       .def(
-          "__deepcopy__",
-          [](const T& self, const nb::dict&) {
-            self.must_rest();
-            return T(self);
-          },
-          nb::arg("memo"), nb::sig(deepcopy.c_str()))
+          "__deepcopy__", [copy](const T& self, const nb::dict&) { return copy(self); }, nb::arg("memo"),
+          nb::sig(deepcopy.c_str()))
       .def(
           "__reduce__",
-          [](nb::handle self) {
+          [arguments](nb::handle self) {
             const auto& object = nb::cast<const T&>(self);
-            object.must_rest();
+            const nb::bytes state = saved(object);
             return nb::make_tuple(nb::module_::import_("punctura.restore").attr("restored"),
-                                  nb::make_tuple(self.type(), object.arguments(), as_bytes(object.save())));
+                                  nb::make_tuple(self.type(), std::invoke(arguments, object), state));
           },
           nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))
       .def_prop_rw(
-          "state",
-          [](const T& self) {
-            self.must_rest();
-            return as_bytes(self.save());
-          },
+          "state", &saved<T>,
           [name](T& self, const nb::bytes& state) {
-            self.must_rest();
-            if (!self.load(as_span(state)))
+            if (!loaded(self, state))
               throw nb::value_error(("these bytes are no state of this " + name +
                                      ": they are damaged, or of other parameters, or of another version of punctura")
                                         .c_str());
@@ -127,6 +148,10 @@ void def_state(nb::class_<T>& cls) {
           nb::for_getter(nb::sig("def state(self) -> bytes")),
           nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")),
           "The complete state as bytes. Setting it continues with identical results, bit for bit. Raises ValueError.");
+}
+template <typename T>
+void def_state(nb::class_<T>& cls) {
+  def_state(cls, &T::arguments);
 }
 
 }  // namespace punctura::bindings

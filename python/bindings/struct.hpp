@@ -6,7 +6,10 @@
 #include <nanobind/stl/tuple.h>
 
 #include <bit>
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -39,6 +42,12 @@ struct InPython<std::array<double, n>> {
   using Given = std::array<double, n>;
   static Given from(const Given& given, const std::string&) { return given; }
   static auto shown(const Given& value) { return std::tuple_cat(value); }
+};
+template <>
+struct InPython<std::span<const std::string_view>> {
+  static auto shown(std::span<const std::string_view> words) {
+    return std::vector<std::string>(words.begin(), words.end());
+  }
 };
 template <>
 struct InPython<Vector3d> {
@@ -85,22 +94,20 @@ nb::arg_v argument(const FieldOf<Owner, Value>& row, const Owner& standard, bool
   return {nb::arg(row.name.data()), needed ? nb::object() : nb::cast(InPython<Value>::shown(standard.*row.member))};
 }
 
-/// A read-only property for the member of a row.
-template <typename Owner, typename Value>
-void def_member(nb::class_<Owner>& cls, const FieldOf<Owner, Value>& row) {
-  const auto member = row.member;
-  if constexpr (std::is_reference_v<decltype(InPython<Value>::shown(std::declval<const Value&>()))>)
-    cls.def_ro(row.name.data(), member, doc_of(row).c_str());
-  else
-    cls.def_prop_ro(
-        row.name.data(), [member](const Owner& owner) { return InPython<Value>::shown(owner.*member); },
-        doc_of(row).c_str());
+/// A read-only property for the member of a row. part: of an object T, has the member; T derives from Owner by default.
+template <typename T, typename Owner, typename Value, typename Part = std::identity>
+void def_member(nb::class_<T>& cls, const FieldOf<Owner, Value>& row, Part part = {}) {
+  const auto get = [member = row.member, part](const T& object) -> decltype(auto) {
+    const Owner& owner = std::invoke(part, object);
+    return InPython<Value>::shown(owner.*member);
+  };
+  cls.def_prop_ro(row.name.data(), get, doc_of(row).c_str());
 }
 
 /// What a class says of itself and of its constructor.
 struct ClassTexts {
-  const char* name;
-  const char* doc;
+  const char* name = nullptr;
+  const char* doc = nullptr;
   std::string path = "";  ///< of problems
   const char* raises = "Raises ConfigurationError.";
   int needed = -1;  ///< number of arguments without a default; -1: all up to the last number that is NaN by default
@@ -119,12 +126,22 @@ class StructOf;
 template <const auto& rows, typename T, typename... Value, std::size_t... i>
 class StructOf<rows, std::tuple<FieldOf<T, Value>...>, std::index_sequence<i...>> {
  public:
-  /// Defines the class, with a constructor that has an argument for each row, and read-only properties.
+  using Struct = T;
+
+  /// Defines the class of a Made that derives from T. Each row is an argument of its constructor and a read-only
+  /// property.
+  template <typename Made, typename Check, typename... Extra>
+  static nb::class_<Made> define(nb::module_& m, const ClassTexts& texts, Check check, const Extra&... extra) {
+    auto cls = nb::class_<Made>(m, texts.name, texts.doc);
+    def_init(cls, texts, check, extra...);
+    for_each([&](const auto& row) { def_member(cls, row); });
+    return cls;
+  }
+  /// Defines the constructor of a class Made that is made from a T.
   ///
   /// check(made, problems) adds the problems that the constructor raises. extra: of the constructor: nb::kw_only().
-  template <typename Check, typename... Extra>
-  static nb::class_<T> define(nb::module_& m, const ClassTexts& texts, Check check, const Extra&... extra) {
-    auto cls = nb::class_<T>(m, texts.name, texts.doc);
+  template <typename Made, typename Check, typename... Extra>
+  static void def_init(nb::class_<Made>& cls, const ClassTexts& texts, Check check, const Extra&... extra) {
     const T standard{};
     int needed = texts.needed;
     std::string doc;
@@ -137,10 +154,11 @@ class StructOf<rows, std::tuple<FieldOf<T, Value>...>, std::index_sequence<i...>
     });
     cls.def(
         "__init__",
-        [path = texts.path, check](T* self, typename InPython<Value>::Given... given) {
+        [path = texts.path, check](Made* self, typename InPython<Value>::Given... given) {
           T made{};
+          const std::string dot = path.empty() ? "" : path + ".";
           ((made.*std::get<i>(table).member =
-                InPython<Value>::from(std::move(given), path + "." + std::string(std::get<i>(table).name))),
+                InPython<Value>::from(std::move(given), dot + std::string(std::get<i>(table).name))),
            ...);
           std::vector<Problem> problems;
           const auto on_number = [&](const auto& act) {
@@ -154,14 +172,16 @@ class StructOf<rows, std::tuple<FieldOf<T, Value>...>, std::index_sequence<i...>
             check(made, problems);
           raise_if(problems);
           on_number([&](const Field& row, double value) {
-            if (row.usual.high < no_bound) warn_unusual(path + "." + std::string(row.name), value);
+            if (row.usual.high < no_bound) warn_unusual(dot + std::string(row.name), value);
           });
-          new (self) T(std::move(made));
+          new (self) Made(std::move(made));
         },
         extra..., argument(std::get<i>(table), standard, static_cast<int>(i) < needed)...,
         (doc + texts.raises).c_str());
-    for_each([&](const auto& row) { def_member(cls, row); });
-    return cls;
+  }
+  /// The arguments of the constructor.
+  static nb::tuple arguments(const T& given) {
+    return nb::make_tuple(InPython<Value>::shown(given.*std::get<i>(table).member)...);
   }
   static std::vector<const char*> names() { return {std::get<i>(table).name.data()...}; }
 
@@ -177,9 +197,9 @@ class StructOf<rows, std::tuple<FieldOf<T, Value>...>, std::index_sequence<i...>
 };
 
 /// Defines the class of a struct as an immutable value: StructOf<rows>::define and def_value.
-template <const auto& rows, typename Check = CheckNumbers>
+template <const auto& rows, typename Made = typename StructOf<rows>::Struct, typename Check = CheckNumbers>
 auto def_struct(nb::module_& m, const ClassTexts& texts, Check check = {}) {
-  auto cls = StructOf<rows>::define(m, texts, check);
+  auto cls = StructOf<rows>::template define<Made>(m, texts, check);
   def_value(cls, StructOf<rows>::names());
   return cls;
 }

@@ -21,8 +21,6 @@ struct GivenPlunger : Plunger, OneThread {
 
   GivenPlunger(const Syringe& syringe, const Coupling& coupling, double period)
       : Plunger(syringe, coupling, period), given_coupling(coupling), period(period) {}
-  std::vector<std::byte> save() const { return save_state<Plunger>(*this); }
-  bool load(std::span<const std::byte> bytes) { return load_state<Plunger>(*this, bytes); }
   nb::tuple arguments() const { return nb::make_tuple(syringe(), given_coupling, period); }
 };
 
@@ -89,24 +87,17 @@ void bind_syringe(nb::module_& m) {
             check_depth(p);
             return Plunger(self).step(p, outlet);
           },
-          nb::arg("p"), nb::arg("outlet"), "The force of step(p, outlet), without changing the state.")
-      .def_prop_ro(
-          "syringe", [](const GivenPlunger& p) { return p.syringe(); }, "The syringe at the start")
-      .def_prop_ro(
-          "force", [](const GivenPlunger& p) { return p.force(); }, "f(k), N, on the thumb")
-      .def_prop_ro(
-          "position", [](const GivenPlunger& p) { return p.position(); }, "q(k), m, of the plunger")
-      .def_prop_ro(
-          "pressure", [](const GivenPlunger& p) { return p.pressure(); }, "P(k) above that of the atmosphere, Pa")
-      .def_prop_ro(
-          "left", [](const GivenPlunger& p) { return p.left(); },
-          "Volume that left through the needle so far, m^3; negative if more came back")
-      .def_prop_ro(
-          "liquid", [](const GivenPlunger& p) { return p.state.contents.liquid; }, "In the barrel now, m^3")
-      .def_prop_ro(
-          "air", [](const GivenPlunger& p) { return p.state.contents.air; },
-          "In the barrel now, m^3 at the pressure of the atmosphere")
-      .def_prop_ro("phase", [](const GivenPlunger& p) { return p.phase(); });
+          nb::arg("p"), nb::arg("outlet"), "The force of step(p, outlet), without changing the state.");
+  const Getters get{plunger};
+  get("syringe", "The syringe at the start", [](auto& p) { return p.syringe(); });
+  get("force", "f(k), N, on the thumb", [](auto& p) { return p.force(); });
+  get("position", "q(k), m, of the plunger", [](auto& p) { return p.position(); });
+  get("pressure", "P(k) above that of the atmosphere, Pa", [](auto& p) { return p.pressure(); });
+  get("left", "Volume that left through the needle so far, m^3; negative if more came back",
+      [](auto& p) { return p.left(); });
+  get("liquid", "In the barrel now, m^3", [](auto& p) { return p.state.contents.liquid; });
+  get("air", "In the barrel now, m^3 at the pressure of the atmosphere", [](auto& p) { return p.state.contents.air; });
+  get("phase", "", [](auto& p) { return p.phase(); });
 
   m.def("tube_resistance", &checked_tube_resistance, nb::arg("bore"), nb::arg("length"),
         "Flow resistance of a tube for water at 20 C, Pa s/m^3, by Hagen and Poiseuille. bore, length: m. Raises\n"

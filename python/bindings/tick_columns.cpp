@@ -10,16 +10,14 @@
 #include "tick_store.hpp"
 
 namespace punctura::bindings {
-template <typename Table, typename Extra>
-struct TickColumns<Table, Extra>::Columns {
-  const Table& table;
-  std::array<bool, std::tuple_size_v<Table>> wanted{};
-  ColumnsOf<Table, Extra> columns{};
+struct TickColumns::Columns {
+  std::array<bool, std::tuple_size_v<decltype(experiment_table)>> wanted{};
+  ColumnsOf<decltype(experiment_table)> columns{};
   std::size_t rows = 0, most = 0;
 
   template <typename Do>
   void each(Do&& act) {
-    for_each_field(table, [&](const auto& field, auto i) {
+    for_each_field(experiment_table, [&](const auto& field, auto i) {
       if (wanted[i]) act(field, std::get<i>(columns));
     });
   }
@@ -27,7 +25,7 @@ struct TickColumns<Table, Extra>::Columns {
   /// For a scene with more membranes: earlier rows get absent values for the new ones.
   void widen(std::size_t membranes) {
     each([&](const auto& field, auto& column) {
-      using Put = FieldStore<decltype(field), Extra>;
+      using Put = FieldStore<decltype(field)>;
       if constexpr (std::remove_cvref_t<decltype(field)>::per_membrane) {
         std::remove_reference_t<decltype(column)> wide(rows * membranes * Put::width, absent<typename Put::Type>());
         for (std::size_t row = 0; row < rows; ++row)
@@ -39,22 +37,20 @@ struct TickColumns<Table, Extra>::Columns {
   }
 };
 
-template <typename Table, typename Extra>
-TickColumns<Table, Extra>::TickColumns(const Table& table, std::initializer_list<std::string_view> only)
-    : columns_(new Columns{table}) {
-  for_each_field(table, [&](const auto& field, auto i) {
-    columns_->wanted[i] = only.size() == 0 || std::find(only.begin(), only.end(), field.name) != only.end();
+TickColumns::TickColumns(std::initializer_list<std::string_view> only, bool with_extra) : columns_(new Columns) {
+  for_each_field(experiment_table, [&](const auto& field, auto i) {
+    constexpr bool is_extra = std::remove_cvref_t<decltype(field)>::part == TickPart::extra;
+    const bool named = only.size() == 0 || std::find(only.begin(), only.end(), field.name) != only.end();
+    columns_->wanted[i] = is_extra ? with_extra : named;
   });
 }
 
-template <typename Table, typename Extra>
-TickColumns<Table, Extra>::~TickColumns() = default;
+TickColumns::~TickColumns() = default;
 
-template <typename Table, typename Extra>
-void TickColumns<Table, Extra>::reserve(std::size_t rows, std::size_t membranes) {
+void TickColumns::reserve(std::size_t rows, std::size_t membranes) {
   columns_->most = std::max(columns_->most, membranes);
   const auto numbers_of = [&](const auto& field) {
-    return rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field), Extra>::width;
+    return rows * (field.per_membrane ? membranes : 1) * FieldStore<decltype(field)>::width;
   };
   double bytes = 0;
   columns_->each(
@@ -63,11 +59,10 @@ void TickColumns<Table, Extra>::reserve(std::size_t rows, std::size_t membranes)
   columns_->each([&](const auto& field, auto& column) { column.reserve(numbers_of(field)); });
 }
 
-template <typename Table, typename Extra>
-void TickColumns<Table, Extra>::add(const Snapshot& record, const Extra& extra) {
+void TickColumns::add(const Snapshot& record, const ExperimentExtra& extra) {
   if (record.membrane_count > columns_->most) columns_->widen(record.membrane_count);
   columns_->each([&, most = columns_->most](const auto& field, auto& column) {
-    using Put = FieldStore<decltype(field), Extra>;
+    using Put = FieldStore<decltype(field)>;
     const std::size_t at = column.size();
     if constexpr (std::remove_cvref_t<decltype(field)>::per_membrane) {
       column.resize(at + most * Put::width, absent<typename Put::Type>());
@@ -84,11 +79,10 @@ void TickColumns<Table, Extra>::add(const Snapshot& record, const Extra& extra) 
   ++columns_->rows;
 }
 
-template <typename Table, typename Extra>
-nb::object TickColumns<Table, Extra>::to_ticks(std::size_t components, bool single) {
+TicksObject TickColumns::to_ticks(std::size_t components, bool single) {
   nb::dict columns;
   columns_->each([&](const auto& field, auto& column) {
-    using Put = FieldStore<decltype(field), Extra>;
+    using Put = FieldStore<decltype(field)>;
     std::vector<std::size_t> shape{columns_->rows};
     if (field.per_membrane && !single) shape.push_back(columns_->most);
     if constexpr (Put::width == 3) {
@@ -105,8 +99,5 @@ nb::object TickColumns<Table, Extra>::to_ticks(std::size_t components, bool sing
   });
   return nb::module_::import_("punctura.ticks").attr("Ticks")(columns);
 }
-
-template class TickColumns<std::remove_const_t<decltype(tick_table)>>;
-template class TickColumns<std::remove_const_t<decltype(experiment_table)>, ExperimentExtra>;
 
 }  // namespace punctura::bindings

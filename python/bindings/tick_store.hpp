@@ -7,10 +7,10 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "punctura/servo/tick_table.hpp"
+#include "punctura/lab/plant/experiment_table.hpp"
 
 namespace punctura::bindings {
 
@@ -29,24 +29,19 @@ struct Stored<Triple> {
 };
 
 /// The struct that holds a field, and the stored type.
-template <typename Field, typename Extra = std::monostate>
-using PartOf =
-    std::conditional_t<std::remove_cvref_t<Field>::part == TickPart::membrane, MembraneRecord,
-                       std::conditional_t<std::remove_cvref_t<Field>::part == TickPart::extra, Extra, Snapshot>>;
-template <typename Field, typename Extra = std::monostate>
-struct FieldStore : Stored<typename std::remove_cvref_t<Field>::template Value<PartOf<Field, Extra>>> {
-  using Value = typename std::remove_cvref_t<Field>::template Value<PartOf<Field, Extra>>;
+template <typename Field, TickPart part = std::remove_cvref_t<Field>::part>
+using PartOf = std::conditional_t<part == TickPart::membrane, MembraneRecord,
+                                  std::conditional_t<part == TickPart::extra, ExperimentExtra, Snapshot>>;
+template <typename Field>
+struct FieldStore : Stored<typename std::remove_cvref_t<Field>::template Value<PartOf<Field>>> {
+  using Value = typename std::remove_cvref_t<Field>::template Value<PartOf<Field>>;
 };
 
 /// One std::vector for each field of a table.
-template <typename Table, typename Extra>
-struct ColumnsOfTable;
-template <typename... Fields, typename Extra>
-struct ColumnsOfTable<std::tuple<Fields...>, Extra> {
-  using Type = std::tuple<std::vector<typename FieldStore<Fields, Extra>::Type>...>;
-};
-template <typename Table, typename Extra = std::monostate>
-using ColumnsOf = typename ColumnsOfTable<std::remove_const_t<Table>, Extra>::Type;
+template <typename... Fields>
+std::tuple<std::vector<typename FieldStore<Fields>::Type>...> columns_of_table(const std::tuple<Fields...>&);
+template <typename Table>
+using ColumnsOf = decltype(columns_of_table(std::declval<Table>()));
 
 /// The NumPy name of a type.
 template <typename T>

@@ -56,7 +56,7 @@ std::optional<std::vector<std::string>> words_of() {
 std::vector<Field> fields() {
   std::vector<Field> all;
   for_each_field(experiment_table, [&](const auto& field, auto) {
-    using Store = FieldStore<decltype(field), ExperimentExtra>;
+    using Store = FieldStore<decltype(field)>;
     using Value = typename Store::Value;
     using Number = std::conditional_t<std::is_same_v<Value, bool>, bool, typename Store::Type>;
     all.push_back({field.name, field.column, field.unit, field.says, dtype_name<Number>(), Store::width,

@@ -1,4 +1,5 @@
 // core/punctura/lab/trace: the force along a measured motion, with exact derivatives.
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 
 #include "bindings.hpp"
@@ -80,13 +81,6 @@ class TraceModel {
   std::vector<double> depth_, time_;
 };
 
-template <typename Names>
-nb::tuple as_tuple(const Names& names) {
-  nb::list words;
-  for (const auto name : names) words.append(nb::str(name.data(), name.size()));
-  return nb::tuple(words);
-}
-
 }  // namespace
 
 void bind_trace(nb::module_& m) {
@@ -105,11 +99,11 @@ void bind_trace(nb::module_& m) {
                    "How far behind each surface the tip of a slow needle is when it pops (m,), m, and the derivatives "
                    "(m, 17): by the coupling, then by the membrane.");
   model.def_prop_ro_static(
-      "membrane_names", [](nb::handle) { return as_tuple(trace_membrane_names); },
+      "membrane_names", [](nb::handle) { return std::tuple_cat(trace_membrane_names); },
       nb::sig("def membrane_names(cls, /) -> tuple[str, ...]"),
       "The parameters of a membrane, in the order of the columns of `membranes`.");
   model.def_prop_ro_static(
-      "coupling_names", [](nb::handle) { return as_tuple(trace_coupling_names); },
+      "coupling_names", [](nb::handle) { return std::tuple_cat(trace_coupling_names); },
       nb::sig("def coupling_names(cls, /) -> tuple[str, ...]"),
       "The parameters of the coupling, in the order of `coupling`.");
 }

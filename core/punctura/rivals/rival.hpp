@@ -3,13 +3,19 @@
 // docs/rivals.md has the equations, the sources, and what each rival leaves out.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <string_view>
 #include <type_traits>
+
+#include "punctura/model/words.hpp"
 
 namespace punctura {
 
 /// What a trace must contain so that a number of a rival can be read from it.
 enum class Shows { insertion, withdrawal, speeds, setting };
+template <>
+inline constexpr std::array<std::string_view, 4> words_of<Shows>{"insertion", "withdrawal", "speeds", "nothing"};
 
 /// A number of a rival R.
 template <typename R>

@@ -54,8 +54,9 @@ class StepMaker {
     }};
   }
 
-  /// Rivals in place of the scene's law: one for each membrane, or one for all.
+  /// Rivals in place of the scene's law: one for each membrane, or one for all; without any the scene's own.
   static StepMaker with_rivals(std::vector<AnyRival> rivals) {
+    if (rivals.empty()) return {};
     StepMaker made([rivals](const Scene& scene, std::vector<Problem>& problems) {
       return try_build_rivals(scene, rivals, problems);
     });

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "punctura/lab/trace/live_line.hpp"
 #include "punctura/lab/trace/live_puncture.hpp"
+#include "punctura/model/field.hpp"
+#include "punctura/model/words.hpp"
 
 namespace punctura {
 
@@ -18,18 +22,35 @@ enum class LivePhase : std::uint8_t {
   behind,  ///< behind a puncture, before the next membrane
 };
 
-/// The settings of a live estimate.
-struct LiveSettings {
-  LivePunctureSettings puncture{};
-  double step = 2e-5;         ///< the ticks of this way are averaged to one sample, m
-  double rise_memory = 1e-3;  ///< the slope is that of the last stretch of about this length, m
-  double contact = 0.03;      ///< force above which a membrane is in contact, N
+template <>
+inline constexpr std::array<std::string_view, 3> words_of<LivePhase>{"free", "rise", "behind"};
+
+/// The settings of a live estimate, see live_fields.
+struct LiveSettings : LivePunctureSettings {
+  double contact = 0.03, step = 2e-5, rise_memory = 1e-3;
 
   void describe(auto& parameters) const {
-    LivePuncture(puncture).describe(parameters);
+    LivePuncture(*this).describe(parameters);
     parameters.numbers(step, rise_memory, contact);
   }
 };
+
+// clang-format off
+inline constexpr FieldOf<LiveSettings> live_fields[] = {
+    {{"noise", "", "N", greater_than_0,
+      "Smallest standard deviation of the force from tick to tick."}, &LiveSettings::noise},
+    {{"least_drop", "", "N", greater_than_0, "Smallest drop of a puncture."}, &LiveSettings::least_drop},
+    {{"least_share", "", "-", {0, 1, false, true, "must be at least 0 and less than 1"},
+      "Smallest drop as a share of the force before it."}, &LiveSettings::least_share},
+    {{"least_speed", "", "m/s", greater_than_0, "Slower needles make no puncture."}, &LiveSettings::least_speed},
+    {{"unloading", "", "N/m", at_least_0,
+      "Largest stiffness of a tissue or coupling that unloads."}, &LiveSettings::unloading},
+    {{"contact", "", "N", greater_than_0, "Force above which a membrane is in contact."}, &LiveSettings::contact},
+    {{"step", "", "m", greater_than_0, "The ticks of this way are averaged to one sample."}, &LiveSettings::step},
+    {{"rise_memory", "", "m", greater_than_0,
+      "The slope is that of the last stretch of about this length."}, &LiveSettings::rise_memory},
+};
+// clang-format on
 
 /// A value with its standard deviation; both NaN while there is none.
 struct LiveValue {
@@ -56,9 +77,9 @@ class LiveEstimate {
  public:
   explicit LiveEstimate(const LiveSettings& settings = {}) noexcept
       : settings_(settings),
-        puncture_(settings.puncture),
-        rise_(settings.rise_memory, 0.1 * settings.puncture.noise),
-        behind_(plateau_memory, 0.1 * settings.puncture.noise) {}
+        puncture_(settings),
+        rise_(settings.rise_memory, 0.1 * settings.noise),
+        behind_(plateau_memory, 0.1 * settings.noise) {}
 
   /// Forgets everything.
   void reset() noexcept { *this = LiveEstimate(settings_); }
@@ -167,7 +188,7 @@ class LiveEstimate {
 
   /// Behind a puncture: the plateau, until the force leaves it upwards.
   void settle(double way, double mean) noexcept {
-    const double more = 4 * puncture_.noise() + 0.5 * settings_.puncture.least_drop;
+    const double more = 4 * puncture_.noise() + 0.5 * settings_.least_drop;
     if (behind_.ready() && mean > behind_.at(way) + more) {
       reading_.phase = LivePhase::rise;
       rise_.reset();

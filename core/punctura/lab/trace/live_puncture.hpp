@@ -9,12 +9,8 @@ namespace punctura {
 
 /// What the detector of punctures needs to know.
 struct LivePunctureSettings {
-  double noise = 4e-3;        ///< smallest standard deviation of the force from tick to tick, N
-  double least_drop = 0.06;   ///< smallest drop of a puncture, N
-  double least_share = 0.08;  ///< smallest drop as a share of the force before it
-  double limit = 10;          ///< of the cumulative sum, in standard deviations
-  double least_speed = 3e-4;  ///< slower needles make no puncture, m/s
-  double unloading = 2000;    ///< largest stiffness of a tissue or coupling that unloads, N/m
+  double noise = 4e-3, least_drop = 0.06, least_share = 0.08, least_speed = 3e-4, unloading = 2000;  ///< live_fields
+  double limit = 10;  ///< of the cumulative sum, in standard deviations
 };
 
 /// A cumulative sum (Page 1954) of (greatest force - force) / noise - slack, with at most 4 a tick, so that a single
