@@ -152,11 +152,12 @@ def _with_growing_time(held: dict[str, Array], found: list[Finding], needed: boo
         return held
     back = np.concatenate(([False], np.diff(time) < 0))
     row, lost = int(np.argmin(grows)) + 1, int((~grows).sum())
-    severe = lost > len(time) // 10
     if back.any():
+        severe = lost > len(time) // 10
         text = f"time goes back {int(back.sum())} times, first at sample {int(np.argmax(back)) + 1}"
         found.append(Finding("time_goes_back", f"{text}; {lost} samples are left out", True, severe))
     else:
+        severe = lost > len(time) // 2  # a digitised trace often has two forces at a time; a coarse clock has many
         text = f"{lost} samples have the time of the sample before, first sample {row}"
         if severe and not needed:
             text += "; the trace is read without time. Record a finer one"

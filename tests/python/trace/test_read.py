@@ -171,6 +171,16 @@ def test_time_that_goes_back_is_named(tmp_path):
     assert kinds(read) == {"time_goes_back"} and len(read) == len(made) - 10
 
 
+def test_a_digitised_trace_with_two_forces_at_many_times_keeps_its_time(tmp_path):
+    made = trace()
+    time = made.time.copy()
+    time[1::5], time[3::5] = time[0::5][: len(time[1::5])], time[2::5][: len(time[3::5])]
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, time_s=time)), {"time": "time_s"})
+    [repeats] = read.findings
+    assert repeats.kind == "time_repeats" and not repeats.severe
+    assert read.time is not None and len(read) == np.unique(time).size
+
+
 @pytest.mark.parametrize(("turned", "named"), [(-1, "time goes back"), (0, "have the time of the sample before")])
 def test_a_time_that_leaves_too_few_samples_says_why_and_what_to_do(tmp_path, turned, named):
     made = trace()
