@@ -32,14 +32,14 @@ Point = Annotated[
     typer.Option("--decimal", help="The decimal mark, where a file can be read in two ways."),
 ]
 Encoding = Annotated[
-    str | None, typer.Option("--encoding", help="Of a text file: gbk, shift_jis, utf-16, ...", metavar="NAME")
+    str | None, typer.Option("--encoding", help="Encoding of a text file: gbk, shift_jis, utf-16, ...", metavar="NAME")
 ]
 Sheet = Annotated[str | None, typer.Option("--sheet", help="Sheet of a workbook, by name or number.", metavar="NAME")]
 Speed = Annotated[
     str | None,
     typer.Option(
         "--speed-mm-per-s",
-        help="Of the needle, for a file without depth: 4, or 4,0@4,-4@5 (from 4 s on 0, from 5 s on -4).",
+        help="Speed of the needle, for a file without depth: 4, or 4,0@4,-4@5 (from 4 s on 0, from 5 s on -4).",
         metavar="SPEED",
     ),
 ]

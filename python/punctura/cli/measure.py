@@ -23,7 +23,7 @@ def command(
     ],
     angle: Annotated[
         float,
-        typer.Option("--angle-deg", help="Between the needle and the normal of the surface.", min=0, max=89),
+        typer.Option("--angle-deg", help="Angle between the needle and the normal of the surface.", min=0, max=89),
     ] = 0.0,
     column: _trace.Column = None,
     unit: _trace.Unit = None,

@@ -21,7 +21,10 @@ def command(
         Path, typer.Argument(exists=True, help="A trace file (docs/identify.md), or a recording.", metavar="TRACE")
     ],
     models: Annotated[
-        str | None, typer.Option("--models", help="Names, with commas between. Default: all.", metavar="NAMES")
+        str | None,
+        typer.Option(
+            "--models", help="Names of models (docs/rivals.md), with commas between. Default: all.", metavar="NAMES"
+        ),
     ] = None,
     column: _trace.Column = None,
     unit: _trace.Unit = None,

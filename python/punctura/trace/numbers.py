@@ -12,6 +12,7 @@ from punctura.trace.trace import Trace, TraceError
 
 LOWER, UPPER = 0.2, 0.8  # of a rise: the gradient is that of the part between them
 LAST = 0.05  # of the way behind the contact: the final force is the mean over it
+PARTS = 20  # of the way in: the speed is their median
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ class InsertionNumbers:
     insertion: int  # 0 is the first one
     zero_N: float
     noise_N: float  # from sample to sample: a peak is the greatest sample, so noise makes it greater
-    speed_m_per_s: float | None  # the median on the way in
+    speed_m_per_s: float | None  # the median over equal parts of the way in
     contact_m: float | None
     deepest_m: float
     peak_N: float
@@ -96,7 +97,7 @@ def _numbers(
         insertion=insertion,
         zero_N=zero,
         noise_N=calm_noise(trace.force),
-        speed_m_per_s=None if trace.speed is None else float(np.median(trace.speed[first:end])),
+        speed_m_per_s=_speed(trace, slice(first, end)),
         contact_m=None if contact is None else float(trace.depth[contact]),
         deepest_m=deepest,
         peak_N=float(trace.force[peak]),
@@ -119,6 +120,16 @@ def _pop(trace: Trace, pop: Pop, foot: int, end: int) -> PopNumbers:
     behind = trace.force[pop.end : max(min(end, pop.end + max(5, pop.end - pop.start)), pop.end + 1)]
     drop = pop.force - float(np.median(behind))
     return PopNumbers(pop.depth, pop.force, _gradient(trace, foot, pop.start), drop, pop.width)
+
+
+def _speed(trace: Trace, rows: slice) -> float | None:
+    """The median speed, m/s, over parts of the way: with encoder steps most samples alone show no motion."""
+    if trace.time is None:
+        return None
+    depth, first = np.unique(np.maximum.accumulate(trace.depth[rows]), return_index=True)
+    way = np.linspace(depth[0], depth[-1], PARTS + 1)
+    times = np.diff(np.interp(way, depth, trace.time[rows][first]))
+    return float(np.median(np.diff(way) / times)) if len(depth) > 1 else None
 
 
 def _work(trace: Trace, rows: slice) -> float:

@@ -40,6 +40,12 @@ def test_the_numbers_of_a_trace_drawn_by_hand_whatever_the_zero_of_the_sensor(of
     assert pop.gradient_N_per_m == pytest.approx(200, rel=1e-3) and pop.width_m == pytest.approx(0.1e-3, rel=0.15)
 
 
+def test_the_speed_of_a_depth_in_encoder_steps_is_that_of_the_needle():
+    made = triangle()
+    (told,) = numbers_of(replace(made, depth=np.round(made.depth / 0.055e-3) * 0.055e-3))
+    assert told.speed_m_per_s == pytest.approx(1e-3, rel=0.02)
+
+
 def test_an_angle_changes_the_depth_below_the_surface_alone():
     straight, oblique = (numbers_of(triangle(), angle)[0] for angle in (0.0, np.radians(60)))
     assert straight.peak_below_surface_m == pytest.approx(5e-3, abs=0.1e-3)
