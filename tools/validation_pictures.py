@@ -103,7 +103,7 @@ def main() -> None:
 
 def save(figure: Figure, path: Path) -> None:
     figure.savefig(path, metadata={"Date": None}, facecolor="white")
-    text = "\n".join(line.rstrip() for line in path.read_text(encoding="utf-8").splitlines())
+    text = " ".join(path.read_text(encoding="utf-8").split())  # matplotlib begins a line at each point of a curve
     path.write_text(text + "\n", encoding="utf-8")
     print(path)
 
