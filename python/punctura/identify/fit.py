@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 NEARLY = 30.0  # variances of a sample by which another search may be worse and still count
 FURTHER, LITTLE = 30, 0.1  # evaluations of a round after the last one, and what it must gain
 ROUNDS = 20  # of them, at most
+HOPELESS = 2.0  # times the squares of the best search so far: one that creeps above them goes on no longer
 
 
 class Misfit:
@@ -121,14 +122,19 @@ def in_order(found: Fit) -> Fit:
 
 
 def fit(
-    misfit: Misfit, names: Sequence[str], start: Parameters, blurs: Sequence[int] = (0,), evaluations: int = 200
+    misfit: Misfit,
+    names: Sequence[str],
+    start: Parameters,
+    blurs: Sequence[int] = (0,),
+    evaluations: int = 200,
+    hopeless: float = np.inf,
 ) -> Fit:
     """The parameters `names` that fit best, from `start`. blurs: widths in samples, one search after the other.
 
     If the pop of a wall enters or leaves the trace on the way, one more search has its other coordinate (see Free).
 
     A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
-    Raises TraceError if the last search does not end.
+    Raises TraceError if the last search does not end, or creeps where the squares are above `hopeless`, N^2.
     """
     deepest = float(misfit.trace.depth.max())
     free = Free(names, start, deepest, misfit.zero)
@@ -146,6 +152,8 @@ def fit(
     cost = _cost(misfit, free, u)
     for i in range(rounds):
         before = cost
+        if cost > hopeless:
+            raise TraceError(f"the fit creeps after {count} evaluations, far from the best one")
         u, more, message = _search(misfit, free, u, 0, FURTHER)
         count, cost = count + more, _cost(misfit, free, u)
         if not message or before - cost <= LITTLE * before / len(misfit.trace):
@@ -188,7 +196,8 @@ def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Start], enou
     for start in starts:
         for blurs in ((0,), wide) if start.blurred else ((0,),):
             try:
-                found = fit(misfit, names, start.parameters, blurs)
+                limit = HOPELESS * min((end.sse for end in ends), default=np.inf)
+                found = fit(misfit, names, start.parameters, blurs, hopeless=limit)
             except TraceError as error:
                 reason = str(error)
                 continue
