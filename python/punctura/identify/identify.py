@@ -15,6 +15,7 @@ from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.doubts import Doubts, doubts
+from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
@@ -140,19 +141,20 @@ def _identified(
             )
         tell("intervals")
         others = (few_fit.parameters, *few_fit.others)
+        holds = explained(trace, segments, final).ok  # otherwise no search makes the intervals hold
         try:
-            found = estimates(final, others)
+            found = estimates(final, others, outwards=holds)
         except BetterPoint as point:
             if len(better) == BETTER_OPTIMA or not final.sse < least:
-                found, more = estimates(final, others, stops=False), True
+                found, more = estimates(final, others, stops=False, outwards=holds), True
                 break
             tell("a better optimum")
             least = final.sse
             better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
     effective = effective_samples(final.residuals, len(final.u))
-    said = verdicts(found, trace, segments, few_fit)
     doubt = doubts(trace, segments, final, choice.current.extensions)
+    said = verdicts(found, trace, segments, few_fit, doubt.explained.ok)
     said = (*doubt.sentences, *said, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt)
 

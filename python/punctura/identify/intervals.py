@@ -43,12 +43,15 @@ class Estimate:
         return self.high < 10 * max(self.low, 0.02 * self.high)
 
 
-def estimates(fit: Fit, others: Sequence[Parameters] = (), stops: bool = True) -> tuple[Estimate, ...]:
+def estimates(
+    fit: Fit, others: Sequence[Parameters] = (), stops: bool = True, outwards: bool = True
+) -> tuple[Estimate, ...]:
     """Every free parameter with its interval. That of a surface is of a linear model: the pop is the sharp one. A
     surface that can be farther away than the trace is long has no bounds.
 
     others: ends of other searches. One that explains the trace nearly as well as the fit has an interval of its own,
     and each estimate's interval reaches over all of them. stops: raises BetterPoint where a search meets one.
+    outwards: full searches move the bounds outwards, which takes most of the time.
     """
     watch = Watch(fit, stops)
     main = Uncertainty(fit)
@@ -61,7 +64,7 @@ def estimates(fit: Fit, others: Sequence[Parameters] = (), stops: bool = True) -
         low = None if None in lows else min(low for low in lows if low is not None)
         high = None if None in highs else max(high for high in highs if high is not None)
         found.append(Estimate(name, float(values[j]), low, high, UNITS[kind_of(name)]))
-    if all(estimate.identifiable for estimate in found):
+    if not outwards or all(estimate.identifiable for estimate in found):
         return tuple(found)
     return tuple(_searched_again(main, j, estimate, others, watch) for j, estimate in enumerate(found))
 

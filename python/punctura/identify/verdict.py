@@ -51,25 +51,28 @@ SEEN = 0.002  # of the greatest force: a smaller drift does not matter
 DRIFTING = 1.5  # times the other noise: with more slow noise, the interval of a surface is too narrow
 
 
-def verdicts(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> tuple[str, ...]:
+def verdicts(
+    estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, explained: bool = True
+) -> tuple[str, ...]:
     """One sentence for each thing that the trace cannot tell, with the experiment that would.
 
-    fit: of all samples, or of the thinned ones, for the noise.
+    fit: of all samples, or of the thinned ones, for the noise. explained: False if it is said that it is not.
     """
-    return (*_not_identifiable(estimates, trace, segments), *_not_seen(trace, segments), *_drifting(fit))
+    unknown = _not_identifiable(estimates, trace, segments)
+    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, explained))
 
 
-def _drifting(fit: Fit) -> Iterator[str]:
+def _drifting(fit: Fit, explained: bool) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
     if slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
     trace = fit.misfit.trace
     if not AirNoise(trace, segment(trace)).allows(*fit.noise.most_likely()):
-        yield (
-            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
-            "sensor, whose force in air does not show it: the model does not explain the trace. Do not trust the "
-            "intervals."
-        )
+        if explained:
+            yield (
+                f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
+                "sensor, whose force in air does not show it. Do not trust the intervals."
+            )
     else:
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "

@@ -8,6 +8,7 @@ from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import Model, extensions
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.slow_noise import Mixture
+from punctura.identify.verdict import verdicts
 from punctura.trace import Trace, segment
 from traces import NEEDLE, force_of, motion
 
@@ -26,12 +27,16 @@ def silicone(drift=0.0):
     return Trace(depth, force, time)
 
 
+def one_wall():
+    row = default_membrane()
+    row[:5] = [4e-3, 600, 0.3, 0.2, 0.5e-3]
+    return Parameters(NEEDLE, np.array([row]), default_coupling(600))
+
+
 def test_a_relaxation_is_preferred_where_the_air_excludes_a_drift():
     made = silicone()
-    rule, row = Rule(made, segment(made)), default_membrane()
+    rule, start = Rule(made, segment(made)), one_wall()
     assert rule.air.relaxes
-    row[:5] = [4e-3, 600, 0.3, 0.2, 0.5e-3]
-    start = Parameters(NEEDLE, np.array([row]), default_coupling(600))
     misfit = Misfit(made, start, zero=rule.air.zero)
     relaxation = next(one for one in extensions(NEEDLE) if one.name == "relaxation")
     small, large = Model(1), Model(1, (relaxation,))
@@ -41,6 +46,13 @@ def test_a_relaxation_is_preferred_where_the_air_excludes_a_drift():
     assert rule.prefers(two, one) and not rule.prefers(one, two)
     assert max(np.abs(rule.air.zero)) < 0.1
     assert all(abs(fitted.fit.parameters.get("offset")) < 0.1 for fitted in (one, two))
+
+
+def test_a_model_that_does_not_explain_the_trace_is_named_once():
+    made, model = silicone(), Model(1)
+    found = fit(Misfit(made, one_wall()), model.names, one_wall())
+    texts = [verdicts((), made, segment(made), found, explained) for explained in (True, False)]
+    assert ["misses the measured force" in " ".join(text) for text in texts] == [True, False]
 
 
 def test_a_sensor_that_drifts_in_air_may_be_the_reason():

@@ -107,6 +107,20 @@ def test_a_better_optimum_ends_the_search_for_intervals():
     assert len(estimates(lesser, stops=False)) == 3
 
 
+@pytest.mark.parametrize("explains", [True, False])
+def test_a_model_that_does_not_explain_the_trace_gets_no_full_search_for_its_bounds(explains, monkeypatch):
+    trace, needle = rise(27)
+    steps = []
+    monkeypatch.setattr("punctura.identify.intervals._searched_again", lambda *given: steps.append(1) or given[2])
+    if not explains:
+        wave = np.where(trace.force > 0.1, 0.2 * np.sin(trace.depth / 2e-4), 0.0)
+        trace = Trace(trace.depth, trace.force + wave, trace.time)
+    found = identify(trace, needle, 1)
+    assert found.doubts.explained.ok == explains
+    assert not all(one.identifiable for one in found.estimates)
+    assert bool(steps) == explains
+
+
 def test_an_extension_that_is_taken_out_is_off_and_takes_those_with_it_that_need_it():
     _, truth = three_walls()
     model = Model(3, extensions(truth.needle)[:6])
