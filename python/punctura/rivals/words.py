@@ -95,7 +95,10 @@ def notes(comparison: TraceComparison) -> list[str]:
     if any(not row.converged for row in comparison.rows):
         found.append("*: the fit ended at its limit of steps, not at an optimum.")
     if not any(row.scene for row in comparison.rows):
-        found.append("K06 is not in the table: it needs the needle (--needle diameter_mm=...,tip_angle_deg=...).")
+        found.append(
+            "K06 is not in the table: it needs the needle (--needle diameter_mm=...,tip_angle_deg=...; a recording has "
+            "its own), and the name k06 where --models names some."
+        )
     alone = [row.title for row in comparison.rows if row.starts > 1 and row.agreeing == 1]
     if alone:
         found.append(f"Only one start led to the best fit, so there may be a better one: {', '.join(alone)}.")
