@@ -104,7 +104,7 @@ def use_all(path: Path) -> None:
     """Runs all operations on a recording. Raises AssertionError for an error other than RecordingError."""
     uses = (
         lambda: json.dumps(asdict(entry_of("case", open_recording(path))), allow_nan=False).encode(),
-        lambda: json.dumps(overview(open_recording(path)), allow_nan=False).encode(),
+        lambda: json.dumps(overview(open_recording(path)).model_dump(mode="json"), allow_nan=False).encode(),
         lambda: replay(path),
         lambda: replay_device(path),
         lambda: export(path, path.with_suffix(".csv")),

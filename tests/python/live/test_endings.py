@@ -134,7 +134,7 @@ def once(device):
 
 
 def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
-    told, blamed = threading.Event(), []
+    told, asked = threading.Event(), []
     device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
 
     class LateStop(Supervisor):
@@ -143,12 +143,12 @@ def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
         def __init__(self, signals, begin, over, end):
             super().__init__(signals, begin, over, lambda: told.wait(PATIENCE_S) and end())
 
-    def blame(summary, device, thumb=None):
-        blamed.append(told.is_set())
+    def add_trouble(summary, device, thumb=None):
+        asked.append(told.is_set())
         summary.fault += ": the cable is out"
 
     monkeypatch.setattr("punctura.live.session.Supervisor", LateStop)
-    monkeypatch.setattr("punctura.live.RunSummary.blame", blame)
+    monkeypatch.setattr("punctura.live.RunSummary.add_trouble", add_trouble)
     said = []
 
     def watch(summary):
@@ -159,7 +159,7 @@ def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
 
     run_live(device, SCENE, watch=watch)
     first = next(fault for fault in said if fault)
-    assert first.endswith("switch it off") and blamed and all(blamed)
+    assert first.endswith("switch it off") and asked and all(asked)
     assert said[-1].endswith("switch it off: the cable is out")
 
 
