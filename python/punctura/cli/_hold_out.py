@@ -18,14 +18,14 @@ from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
 
-def tell_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], as_json: bool) -> None:
+def predict_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], as_json: bool) -> None:
     """Predicts the second insertion from the first one."""
     found = records(second_insertion(trace, needle, membranes, _say))
     what = f"{trace.source}: fitted to the first insertion; error of the second one"
     typer.echo(json.dumps({"hold_out": found}, indent=2) if as_json else in_words(what, found))
 
 
-def tell_folder(
+def predict_folder(
     folder: Path, needle: Needle, membranes: int | Literal["auto"], reading: Reading, as_json: bool
 ) -> None:
     """Predicts each trace of a folder from all others."""

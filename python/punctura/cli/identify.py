@@ -90,16 +90,16 @@ def command(
     )
     folder = trace.is_dir() and not is_bag(trace)
     if hold_out:
-        from punctura.cli._hold_out import tell_folder, tell_insertion
+        from punctura.cli._hold_out import predict_folder, predict_insertion
 
         if scene or report or plan or out:
             raise typer.BadParameter(
                 "predicts only: leave out --scene, --report, --plan and --out", param_hint="--hold-out"
             )
         if folder:
-            tell_folder(trace, _trace.needle_of(needle), count, stated, as_json)
+            predict_folder(trace, _trace.needle_of(needle), count, stated, as_json)
         else:
-            tell_insertion(*_trace.read_with_needle(trace, stated, needle, context), count, as_json)
+            predict_insertion(*_trace.read_with_needle(trace, stated, needle, context), count, as_json)
         return
     if folder or out is not None:
         if scene or report or plan:
