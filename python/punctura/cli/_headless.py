@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import typer
 
 from punctura._core import Device, FedDevice, Placement, Rival, ServoLoop
+from punctura.cli._notice import notice
 from punctura.cli._status import FAILED
 from punctura.cli._status_line import StatusLine
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
@@ -72,14 +73,14 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         fitted, note = fit_conditioning(fitted, opened)
         notes.append(note)
     for note in filter(None, notes):
-        say(f"punctura: note: {note}")
+        notice(f"note: {note}")
 
     limits = wishes.limits
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
-        say(begun(loaded.name, loop, opened, thumb))
+        notice(begun(loaded.name, loop, opened, thumb))
         for note in [*limits.notes(loop, thumb), *run_notes(loop)]:
-            say(f"punctura: note: {note}")
+            notice(f"note: {note}")
         return tape.begin(loop)
 
     def tell(summary: RunSummary, tell_result: Callable[[str], None]) -> None:
@@ -87,7 +88,7 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
         if not summary.force_was_on and summary.ticks > 0:
             button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
-            say(f"punctura: note: there was no force at any time: {button}the tip was never in front of all membranes")
+            notice(f"note: there was no force at any time: {button}the tip was never in front of all membranes")
         tape.tell_fault(summary.fault)
 
     try:
@@ -137,7 +138,7 @@ class Tape:
         if fault and fault != self._fault:
             news, self._fault = fault.removeprefix(f"{self._fault}: "), fault
             self._line.end()
-            say(f"punctura: {news}")
+            notice(news)
 
     @property
     def whole(self) -> bool:
@@ -151,13 +152,9 @@ class Tape:
         if self.status is None:
             return
         name = self.status.file or f"the file that was {self._path}"
-        say(f"punctura: {name}: {self.status.rows} ticks recorded, {self.status.lost} lost")
+        notice(f"{name}: {self.status.rows} ticks recorded, {self.status.lost} lost")
         for text in [*self.status.notes, *([self.status.trouble] if self.status.trouble else [])]:
-            say(f"punctura: recording: {text}")
-
-
-def say(text: str) -> None:
-    typer.echo(text, err=True)
+            notice(f"recording: {text}")
 
 
 def tell_if_read(text: str) -> None:
@@ -192,7 +189,7 @@ def begun(scene: str, loop: ServoLoop, device: Device, thumb: ThumbLoop | None =
     second = ""
     if thumb is not None:
         second = f"; thumb on {thumb.device.info.model}, at most {thumb.limits.max_force:.3g} N"
-    return f"punctura: {scene} on {device.info.model}, {strong}{scale}{second}; Ctrl-C ends it"
+    return f"{scene} on {device.info.model}, {strong}{scale}{second}; Ctrl-C ends it"
 
 
 def in_words(summary: RunSummary) -> str:

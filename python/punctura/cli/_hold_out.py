@@ -9,6 +9,7 @@ from typing import Literal
 import typer
 
 from punctura import Needle
+from punctura.cli._notice import notice
 from punctura.cli._status import FAILED
 from punctura.defects import PATIENCE_S, explain
 from punctura.files.names import as_text, traces_in
@@ -20,7 +21,7 @@ from punctura.trace.reading import Reading
 
 def predict_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], as_json: bool) -> None:
     """Predicts the second insertion from the first one."""
-    found = records(second_insertion(trace, needle, membranes, _say))
+    found = records(second_insertion(trace, needle, membranes, notice))
     what = f"{trace.source}: fitted to the first insertion; error of the second one"
     typer.echo(json.dumps({"hold_out": found}, indent=2) if as_json else in_words(what, found))
 
@@ -32,7 +33,7 @@ def predict_folder(
     all_of_them, failed = {}, {}
     for path in traces_in(folder):
         name = as_text(path.name)
-        _say(name)
+        notice(name)
         try:
             one = fitted(read_as(path, reading), needle, membranes, lambda _: None)
             _ = one.contact
@@ -50,7 +51,3 @@ def predict_folder(
             typer.echo(f"{name}: {reason}")
     if failed:
         raise typer.Exit(FAILED)
-
-
-def _say(word: str) -> None:
-    typer.echo(f"punctura: {word}", err=True)

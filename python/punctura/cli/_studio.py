@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from punctura._core import Placement
-from punctura.cli._headless import USUAL_SCENE, Wishes, begun, say
+from punctura.cli._headless import USUAL_SCENE, Wishes, begun
+from punctura.cli._notice import notice
 from punctura.extras import optional
 from punctura.process.dropping_stream import DroppingStream
 
@@ -32,11 +33,11 @@ def run_page(
     serve.need_page(folder)
     exercises = Exercises(own)
     for file, warning in exercises.warnings:
-        say(f"punctura: warning: {file}: {warning}")
+        notice(f"warning: {file}: {warning}")
     scene = load_exercise(own[0]).scene_name if own and not wishes.scene else wishes.scene or USUAL_SCENE
     loaded = from_name(scene)
     for sentence in loaded.unusual:
-        say(f"punctura: warning: {sentence}")
+        notice(f"warning: {sentence}")
     settings = Settings(
         wishes.device, wishes.placement or Placement(), wishes.scene_filter, wishes.limits, wishes.processor,
         wishes.second,
@@ -46,9 +47,9 @@ def run_page(
     def make() -> serve.StudioServer:
         server = serve.StudioServer(loaded, settings, port, token, folder, recordings, exercises)
         for note in server.session.run.notes:
-            say(f"punctura: note: {note}")
+            notice(f"note: {note}")
         session = server.session
-        say(begun(loaded.scene.name, session.run.loop, session.bench.device, session.run.thumb))
+        notice(begun(loaded.scene.name, session.run.loop, session.bench.device, session.run.thumb))
         return server
 
     out = DroppingStream(sys.stdout)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from punctura import Needle
+from punctura.cli._notice import notice
 
 if TYPE_CHECKING:
     from punctura.trace import Trace
@@ -133,7 +134,7 @@ def needle_of(text: str, trace: Path | None = None) -> Needle:
         raise typer.BadParameter(str(error), param_hint="--needle") from None
     if unusual:
         size = f"{needle.diameter * 1e3:g} mm thick, with a tip of {math.degrees(angle):.3g} degrees"
-        typer.echo(f"punctura: warning: the needle is unusual: {size}. Is that meant?", err=True)
+        notice(f"warning: the needle is unusual: {size}. Is that meant?")
     return needle
 
 

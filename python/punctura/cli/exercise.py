@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from punctura.cli._notice import notice
 from punctura.cli._out import check_place
 from punctura.cli._status import FAILED
 
@@ -48,7 +49,7 @@ def score(
 
     wanted = load_exercise(exercise)
     for warning in wanted.warnings:
-        typer.echo(f"punctura: warning: {wanted.path}: {warning}", err=True)
+        notice(f"warning: {wanted.path}: {warning}")
     result: Result = judge(recording, wanted, person)
     if as_json:
         typer.echo(result.model_dump_json(indent=2))
@@ -117,10 +118,10 @@ def export(
     unread: list[ResultsError] = []
     found = ResultStore(folder).all(person, group, unread)[::-1]
     for error in unread:
-        typer.echo(f"punctura: {folder}: {error}: it is left out", err=True)
+        notice(f"{folder}: {error}: it is left out")
     if not found:
         whose = "".join([f" of {person}" if person else "", f" of the class {group}" if group else ""])
-        typer.echo(f"punctura: there are no results{whose} in {folder}", err=True)
+        notice(f"there are no results{whose} in {folder}")
     text = to_csv(found) if format == "csv" else to_xapi(found, home_page or HOME)
     if out is None:
         typer.echo(text, nl=False)

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._notice import notice
 from punctura.progress import progress_bar
 
 
@@ -23,6 +24,6 @@ def command(
     with progress_bar("export") as progress:
         result = export(file, out, progress)
     for note in result.notes:
-        typer.echo(f"punctura: note: {note}", err=True)
+        notice(f"note: {note}")
     lost = f", {result.lost} lost" if result.lost else ""
     typer.echo(json.dumps(asdict(result), indent=2) if as_json else f"{result.out}: {result.ticks} ticks{lost}")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from punctura.cli import _trace
+from punctura.cli._notice import notice
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
 from punctura.files.whole_file import write_whole
@@ -118,12 +119,12 @@ def command(
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
     read, known = _trace.read_with_needle(trace, stated, needle, context)
-    found = identify(read, known, count, lambda word: typer.echo(f"punctura: {word}", err=True))
+    found = identify(read, known, count, notice)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if not as_json and not found.doubts.explained.ok:
         from punctura.rivals import better
 
-        typer.echo("punctura: the rivals", err=True)
+        notice("the rivals")
         typer.echo(better.in_words(found))
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
@@ -162,7 +163,7 @@ def _plan(path: Path, found: Identification) -> None:
     deepest = float(found.trace.depth.max())
     best = plans(found.parameters, found.fit.free.names, deepest, found.fit.rmse)[0]
     write_whole(path, best.csv())
-    typer.echo(f"punctura: {path}: {best.name}; {best.time[-1]:.0f} s", err=True)
+    notice(f"{path}: {best.name}; {best.time[-1]:.0f} s")
 
 
 def number_of(membranes: str) -> int | Literal["auto"]:

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._notice import notice
 from punctura.cli._status import FAILED
 from punctura.progress import progress_bar
 
@@ -29,7 +30,7 @@ def command(
     with progress_bar("replay") as progress:
         result = replay(file, out, progress)
     for note in result.notes:
-        typer.echo(f"punctura: note: {note}", err=True)
+        notice(f"note: {note}")
     if as_json:
         typer.echo(json.dumps(asdict(result), indent=2))
     elif result.ticks == 0:

@@ -10,6 +10,7 @@ import typer
 
 from punctura import save_scene
 from punctura.cli import _trace
+from punctura.cli._notice import notice
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.extras import optional
 from punctura.progress import progress_bar
@@ -72,7 +73,7 @@ def command(
         trace, _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), context
     )
     for finding in read.findings:
-        typer.echo(f"punctura: note: {finding}", err=True)
+        notice(f"note: {finding}")
     names = None if models is None else [name.strip() for name in models.split(",")]
     with progress_bar("rivals") as progress:
         found = compare_trace(

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._notice import notice
 from punctura.cli._rivals import rivals_of
 from punctura.progress import progress_bar
 from punctura.simulation import SimulationSummary, simulate
@@ -38,7 +39,7 @@ def command(
     with progress_bar("simulate") as progress:
         summary = simulate(scene, motion, out, progress, rivals=None if rival is None else rivals_of(rival))
     for note in summary.notes:
-        typer.echo(f"punctura: note: {note}", err=True)
+        notice(f"note: {note}")
     typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))
 
 

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from punctura.cli._notice import notice
 from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
@@ -42,7 +43,7 @@ def command(
 
     def on_forecast(told: Forecast) -> None:
         if told.is_worth_telling:
-            typer.echo(f"punctura: {told}", err=True)
+            notice(str(told))
 
     loaded = load_plan(plan)
     folder = out or plan.with_suffix(".study")
@@ -59,7 +60,7 @@ def command(
         with progress_bar("study") as progress:
             summary = run_study(loaded, folder, workers, progress, scheduler, on_forecast)
     except (KeyboardInterrupt, Ended):
-        typer.echo(f"punctura: {folder} keeps the finished chunks: the same command goes on with the others", err=True)
+        notice(f"{folder} keeps the finished chunks: the same command goes on with the others")
         raise
     if as_json:
         typer.echo(json.dumps(asdict(summary), indent=2))

@@ -1,0 +1,10 @@
+"""The lines on standard error."""
+
+from __future__ import annotations
+
+import typer
+
+
+def notice(text: str) -> None:
+    """Prints `punctura: TEXT` on standard error, so that standard output holds only the result."""
+    typer.echo(f"punctura: {text}", err=True)
