@@ -1,13 +1,14 @@
-"""The options that say how to read a trace file, and one message for all that is missing."""
+"""The options of how to read a trace file, and one message for all that is missing."""
 
 from __future__ import annotations
 
 import math
 import shlex
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from inspect import Parameter, Signature, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_type_hints
 
 import typer
 
@@ -51,16 +52,16 @@ DepthFile = Annotated[
 
 
 def reading_of(
-    column: list[str] | None,
-    unit: list[str] | None,
-    order: Literal["recorded", "depth"],
-    decimal: Literal["point", "comma"] | None,
-    encoding: str | None,
-    sheet: str | None,
-    speed: str | None,
-    depth_file: Path | None,
+    column: Column = None,
+    unit: Unit = None,
+    order: Order = "recorded",
+    decimal: Point = None,
+    encoding: Encoding = None,
+    sheet: Sheet = None,
+    speed: Speed = None,
+    depth_file: DepthFile = None,
 ) -> Reading:
-    """What the options say about a file. Raises typer.BadParameter."""
+    """What the options state about a file. Raises typer.BadParameter."""
     from punctura.trace.reading import Reading
 
     return Reading(
@@ -68,6 +69,30 @@ def reading_of(
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
         _speeds(speed), None if depth_file is None else str(depth_file),
     )  # fmt: skip
+
+
+def with_reading(command: Callable[..., None]) -> Callable[..., None]:
+    """A verb that has the options of reading_of() in the place of its parameter `reading`, and gets a Reading."""
+
+    def run(**given: Any) -> None:
+        command(reading=reading_of(**{name: given.pop(name) for name in options}), **given)
+
+    options = _parameters(reading_of)
+    parameters: dict[str, Parameter] = {}
+    for name, parameter in _parameters(command).items():
+        parameters |= options if name == "reading" else {name: parameter}
+    run.__doc__ = command.__doc__
+    run.__annotations__ = {name: parameter.annotation for name, parameter in parameters.items()}  # typer reads both
+    run.__signature__ = Signature(list(parameters.values()))  # type: ignore[attr-defined]
+    return run
+
+
+def _parameters(function: Callable[..., object]) -> dict[str, Parameter]:
+    types = get_type_hints(function, localns={"Reading": object}, include_extras=True)
+    return {
+        name: Parameter(name, Parameter.KEYWORD_ONLY, default=parameter.default, annotation=types[name])
+        for name, parameter in signature(function).parameters.items()
+    }
 
 
 def _speeds(text: str | None) -> tuple[tuple[float, float], ...]:

@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from punctura.identify import Identification
     from punctura.identify.folder import Task
     from punctura.identify.records import FolderRecord
+    from punctura.trace.reading import Reading
 
 
+@_trace.with_reading
 def command(
+    *,
     context: typer.Context,
     trace: Annotated[
         Path,
@@ -41,14 +44,7 @@ def command(
         ),
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
-    column: _trace.Column = None,
-    unit: _trace.Unit = None,
-    order: _trace.Order = "recorded",
-    decimal: _trace.Point = None,
-    encoding: _trace.Encoding = None,
-    sheet: _trace.Sheet = None,
-    speed: _trace.Speed = None,
-    depth_file: _trace.DepthFile = None,
+    reading: Reading,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -85,10 +81,7 @@ def command(
     from punctura.scene.write import scene_text
     from punctura.trace.bags import is_bag
 
-    stated, count = (
-        _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file),
-        number_of(membranes),
-    )
+    count = number_of(membranes)
     folder = trace.is_dir() and not is_bag(trace)
     if hold_out:
         from punctura.cli._hold_out import predict_folder, predict_insertion
@@ -98,9 +91,9 @@ def command(
                 "predicts only: leave out --scene, --report, --plan and --out", param_hint="--hold-out"
             )
         if folder:
-            predict_folder(trace, _trace.needle_of(needle), count, stated, as_json)
+            predict_folder(trace, _trace.needle_of(needle), count, reading, as_json)
         else:
-            predict_insertion(*_trace.read_with_needle(trace, stated, needle, context), count, as_json)
+            predict_insertion(*_trace.read_with_needle(trace, reading, needle, context), count, as_json)
         return
     if folder or out is not None:
         if scene or report or plan:
@@ -108,17 +101,17 @@ def command(
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        task = Task(_trace.needle_of(needle, trace), count, stated)
+        task = Task(_trace.needle_of(needle, trace), count, reading)
         if not folder:
-            write_specimens(trace, stated, out / "specimens")
-            trace, task = out / "specimens", replace(task, reading=replace(stated, sheet=None))
+            write_specimens(trace, reading, out / "specimens")
+            trace, task = out / "specimens", replace(task, reading=replace(reading, sheet=None))
         _folder(trace, out, task, workers, as_json)
         return
     written = {"--scene": scene, "--report": report, "--plan": plan}
     for option, path in written.items():
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
-    read, known = _trace.read_with_needle(trace, stated, needle, context)
+    read, known = _trace.read_with_needle(trace, reading, needle, context)
     found = identify(read, known, count, notice)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if not as_json and not found.doubts.explained.ok:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,8 +14,13 @@ from punctura.cli._out import check_apart, check_place
 from punctura.cli._status import FAILED
 from punctura.extras import optional
 
+if TYPE_CHECKING:
+    from punctura.trace.reading import Reading
 
+
+@_trace.with_reading
 def command(
+    *,
     context: typer.Context,
     trace: Annotated[
         Path,
@@ -25,14 +30,7 @@ def command(
         float,
         typer.Option("--angle-deg", help="Angle between the needle and the normal of the surface.", min=0, max=89),
     ] = 0.0,
-    column: _trace.Column = None,
-    unit: _trace.Unit = None,
-    order: _trace.Order = "recorded",
-    decimal: _trace.Point = None,
-    encoding: _trace.Encoding = None,
-    sheet: _trace.Sheet = None,
-    speed: _trace.Speed = None,
-    depth_file: _trace.DepthFile = None,
+    reading: Reading,
     out: Annotated[Path | None, typer.Option("--out", help="Table to write.", metavar="OUT.csv|.parquet")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON, in SI units.")] = False,
 ) -> None:
@@ -47,7 +45,6 @@ def command(
         raise typer.BadParameter(f"must end in {' or '.join(SUFFIXES)}", param_hint="--out")
     check_place(out, "--out")
     check_apart({"TRACE": trace, "--out": out})
-    reading = _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file)
     folder = trace.is_dir() and not is_bag(trace)
     told = measured(traces_in(trace) if folder else [trace], reading, math.radians(angle))
     if not folder and not told["rows"]:

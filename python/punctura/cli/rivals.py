@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -15,8 +15,13 @@ from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.extras import optional
 from punctura.progress import progress_bar
 
+if TYPE_CHECKING:
+    from punctura.trace.reading import Reading
 
+
+@_trace.with_reading
 def command(
+    *,
     context: typer.Context,
     trace: Annotated[
         Path, typer.Argument(exists=True, help="A trace file (docs/identify.md), or a recording.", metavar="TRACE")
@@ -27,14 +32,7 @@ def command(
             "--models", help="Names of models (docs/rivals.md), with commas between. Default: all.", metavar="NAMES"
         ),
     ] = None,
-    column: _trace.Column = None,
-    unit: _trace.Unit = None,
-    order: _trace.Order = "recorded",
-    decimal: _trace.Point = None,
-    encoding: _trace.Encoding = None,
-    sheet: _trace.Sheet = None,
-    speed: _trace.Speed = None,
-    depth_file: _trace.DepthFile = None,
+    reading: Reading,
     needle: Annotated[
         str | None,
         typer.Option(
@@ -69,9 +67,7 @@ def command(
     check_place(plot, "--plot")
     check_apart({"TRACE": trace, "--plot": plot})
     check_folder(out, "--out")
-    read = _trace.read_or_ask(
-        trace, _trace.reading_of(column, unit, order, decimal, encoding, sheet, speed, depth_file), context
-    )
+    read = _trace.read_or_ask(trace, reading, context)
     for finding in read.findings:
         notice(f"note: {finding}")
     names = None if models is None else [name.strip() for name in models.split(",")]

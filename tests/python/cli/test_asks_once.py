@@ -42,7 +42,7 @@ def test_a_needle_alone_is_asked_for_with_the_whole_command_too(tmp_path):
 
 def test_speeds_are_stated_as_a_list_with_times():
     def speeds(text):
-        return reading_of(None, None, "recorded", None, None, None, text, None).speeds
+        return reading_of(speed=text).speeds
 
     assert speeds("4") == ((0.0, 0.004),) and speeds(None) == ()
     assert speeds("4,0@4,-4@5.5") == ((0.0, 0.004), (4.0, 0.0), (5.5, -0.004))
