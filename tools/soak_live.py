@@ -21,7 +21,7 @@ from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import Recorder, Recording, open_recording, replay
-from punctura.record.schema import numbers
+from punctura.record.columns import numbers
 from resident import resident_mb
 
 RATE = 1600.0

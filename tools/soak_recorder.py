@@ -27,7 +27,7 @@ from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import strokes_through
 from punctura.record import Recorder, RecordingError, open_recording
-from punctura.record.build_id import build_id
+from punctura.record.header import build_id
 from waiting import wait_until
 
 RATE = 1600.0

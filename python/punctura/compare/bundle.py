@@ -18,7 +18,7 @@ from punctura.compare.figure import save_figures
 from punctura.compare.run import Run
 from punctura.compare.statistics import Statistics
 from punctura.files.whole_file import whole_file
-from punctura.record.build_id import build_id
+from punctura.record.header import build_id
 from punctura.scene import scene_text
 from punctura.ticks.files import save
 

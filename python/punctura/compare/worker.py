@@ -22,8 +22,8 @@ from punctura.compare.statistics import Statistics
 from punctura.compare.vary import vary
 from punctura.defects import PATIENCE_S, explain
 from punctura.record import Recording
+from punctura.record.header import from_text
 from punctura.record.recording import read_recording
-from punctura.record.scene_text import from_text
 from punctura.results import JsonObject
 
 DIGITS = 6

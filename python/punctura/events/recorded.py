@@ -11,9 +11,8 @@ from punctura import Scene
 from punctura.events.event import Event
 from punctura.events.finder import EventFinder
 from punctura.record import Recording
-from punctura.record.columns import NEW_SCENES
-from punctura.record.scene_text import from_text
-from punctura.record.schema import ticks_of
+from punctura.record.columns import NEW_SCENES, ticks_of
+from punctura.record.header import from_text
 from punctura.ticks import Ticks
 
 

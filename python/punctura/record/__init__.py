@@ -5,13 +5,12 @@ from punctura.extras import optional
 
 optional("pyarrow", "files", "punctura.record")  # before the imports below would fail
 
-from punctura.record.errors import RecordingError
+from punctura.record.description import RecordingError
+from punctura.record.finish import RecorderStatus
 from punctura.record.recorder import Recorder
 from punctura.record.recording import Recording, open_recording
-from punctura.record.replay_device import replay_device
-from punctura.record.run_again import ReplayResult, replay
+from punctura.record.run_again import ReplayResult, replay, replay_device
 from punctura.record.save_as import ExportResult, export
-from punctura.record.status import RecorderStatus
 
 __all__ = [
     "ExportResult",

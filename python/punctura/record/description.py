@@ -12,14 +12,24 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from punctura.record.errors import RecordingError
+from punctura._core import PuncturaError
+from punctura.errors import NoSuchFileError
 from punctura.results import JsonObject
+
+
+class RecordingError(PuncturaError, ValueError):
+    """A recording cannot be started, read or replayed. Names the file, the problem and the remedy."""
+
+
+class MissingRecordingError(RecordingError, NoSuchFileError):
+    """There is no file at a recording's path."""
+
 
 # Formats that this version reads. In format 1 the gate limited the distance between two readings, and `spent_N2s` did
 # not exist. Only a run with rivals has format 3: a version that does not know them must not replay it with K06's law.
 FORMATS = (1, 2, 3)
 _MOST_NESTED = 64
-_MOST_TOLD = 5  # problems in one message
+_MOST_PROBLEMS = 5  # in one message
 
 Count = Annotated[int, Field(ge=0, lt=2**63)]
 Tick = Annotated[int, Field(ge=-1, lt=2**63)]  # -1: no tick
@@ -138,7 +148,7 @@ def read_description(text: bytes, path: Path) -> tuple[JsonObject, Description]:
     try:
         return data, Description.model_validate(data)
     except ValidationError as bad:
-        raise RecordingError(f"{path}: the run description is invalid: {_told(bad)}") from None
+        raise RecordingError(f"{path}: the run description is invalid: {_problems_of(bad)}") from None
 
 
 def _json(text: bytes, path: Path) -> JsonObject:
@@ -170,9 +180,9 @@ def _nested(value: Any) -> int:
     return depth
 
 
-def _told(error: ValidationError) -> str:
+def _problems_of(error: ValidationError) -> str:
     problems = []
-    for one in error.errors(include_url=False)[:_MOST_TOLD]:
+    for one in error.errors(include_url=False)[:_MOST_PROBLEMS]:
         where = ".".join(str(part) for part in one["loc"])
         given = "" if one["type"] == "missing" else f" = {_brief(one['input'])}"
         problems.append(f"{where}{given}: {one['msg'][:1].lower()}{one['msg'][1:]}")

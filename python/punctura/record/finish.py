@@ -1,21 +1,44 @@
-"""Converts the growing .part file to the final Parquet file."""
+"""The status of a recording, and the conversion of the growing .part file to the final Parquet file."""
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypedDict
 
 from punctura.defects import explain
 from punctura.record.append_file import AppendFile, FileChange
-from punctura.record.errors import RecordingError
-from punctura.record.header import DeviceReport
+from punctura.record.description import DeviceAfter, RecordingError
 from punctura.record.parquet_file import parquet_output
 from punctura.record.part_file import PartFile
-from punctura.record.status import RecorderStatus
+
+
+@dataclass(frozen=True)
+class RecorderStatus:
+    """The status at one moment. `trouble` describes the present problem; empty if none."""
+
+    file: Path | None  # present path of the recording; None if it was moved and the system does not report where
+    finished: bool = False
+    rows: int = 0  # ticks on the disk
+    last_tick: int = -1  # number of the last tick on the disk
+    bytes: int = 0
+    lost: int = 0  # ticks that will never be in the file
+    lost_in_ring: int = 0  # of `lost`: the ring was full
+    lost_in_backlog: int = 0  # of `lost`: not written, because the disk was too slow, full or gone
+    lost_otherwise: int = 0  # of `lost`: a defect, no memory, or a file changed by others; set at the end
+    unwritten: dict[str, int] = field(default_factory=dict)  # lost_in_backlog by cause
+    waiting_bytes: int = 0
+    slowest_write_s: float = 0.0
+    trouble: str = ""
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def words(self) -> str:
+        """The message for the user: the trouble or the number of lost ticks; empty if neither."""
+        return self.trouble or (f"{self.lost} ticks are lost" if self.lost else "")
+
 
 _SUFFIX = ".part"
 
@@ -30,33 +53,21 @@ def finished_path(path: Path) -> Path:
     return path.with_name(path.name.removesuffix(_SUFFIX))
 
 
-class FinishRecord(TypedDict):
-    """What the end of a recording adds to its header."""
-
-    device_after: DeviceReport
-    lost: dict[str, int]  # ticks by cause
-
-
-def save_finished(
-    part: PartFile,
-    path: Path,
-    more: FinishRecord,
-    notes: Sequence[str],
-    progress: Callable[[float], None] | None = None,
-) -> None:
+def save_finished(part: PartFile, path: Path, device: DeviceAfter, lost: dict[str, int], notes: Sequence[str]) -> None:
     """Writes the content of a .part file as Parquet, in constant memory.
 
-    more: for the header. notes: for its summary.
+    For the header: the device's report after the run and the lost ticks by cause; notes: for its summary.
     """
     summary = part.survey.summary([*part.notes, *notes], part.damaged).model_dump()
-    summary["lost"] = max(summary["lost"], sum(more["lost"].values()))
-    with parquet_output(path, part.schema, {**part.info.data, "summary": summary, **more}, replace=False) as output:
-        for batch in part.batches(progress):
+    summary["lost"] = max(summary["lost"], sum(lost.values()))
+    data = {**part.info.data, "summary": summary, "device_after": device.model_dump(), "lost": lost}
+    with parquet_output(path, part.schema, data, replace=False) as output:
+        for batch in part.batches():
             output.write(batch)
 
 
 def finish_recording(
-    path: Path, file: AppendFile, made: int, status: RecorderStatus, device: DeviceReport
+    path: Path, file: AppendFile, made: int, status: RecorderStatus, device: DeviceAfter
 ) -> RecorderStatus:
     """Converts the file to Parquet and closes it. If anything fails, the ticks on the disk are kept.
 
@@ -74,7 +85,7 @@ def finish_recording(
         if rows < written and not trouble:  # out of memory? Keep the file: it holds unread ticks
             trouble = f"only {rows} of the {written} ticks in the file could be read"
         if not trouble:
-            save_finished(part, path, {"device_after": device, "lost": _causes(status)}, status.notes)
+            save_finished(part, path, device, _causes(status), status.notes)
             file.close()
             with suppress(OSError):  # the Parquet file is complete in any case
                 part.path.unlink()

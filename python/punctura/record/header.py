@@ -3,122 +3,120 @@
 from __future__ import annotations
 
 import datetime
+import hashlib
 import json
 import math
+import platform
 import time
 import zlib
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
-from typing import TypeAlias, TypedDict, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import pyarrow as pa
 
+from punctura import _core
 from punctura._core import Device, ForceLimits, GateLimits, Rival, Scene, ServoLoop, ThumbLoop
 from punctura.device_words import statements_of, words_of
-from punctura.record.build_id import build_id, machine
-from punctura.record.description import FORMATS, Description, Value, read_description
-from punctura.record.errors import RecordingError
-from punctura.record.scene_text import from_text, to_text
-from punctura.record.schema import check_columns
+from punctura.errors import ConfigurationError
+from punctura.files.toml import parse_toml
+from punctura.record.columns import check_columns
+from punctura.record.description import (
+    FORMATS,
+    Description,
+    DeviceAfter,
+    DeviceBefore,
+    RecordingError,
+    RivalNumbers,
+    SecondDevice,
+    Value,
+    read_description,
+)
 from punctura.results import JsonObject
+from punctura.scene import scene_text
+from punctura.scene.build import build_scene
+from punctura.scene.check import check_tables
+
+
+@cache
+def build_id() -> str:
+    """Version, compiler, and a digest of the compiled core. Builds with equal ids compute the same results."""
+    digest = hashlib.sha256(Path(_core.__file__).read_bytes()).hexdigest()[:16]
+    return f"punctura {_core.version()}; {_core.compiler()}; core {digest}"
+
+
+def machine() -> str:
+    """System and processor. A math library may select its code by them, which can change results."""
+    return f"{platform.system()} {platform.release()} {platform.machine()} {'-'.join(platform.libc_ver())}".strip()
+
+
+def to_text(scene: Scene, rate: float) -> str:
+    """The text of the scene at the device's rate (Hz)."""
+    return scene_text(scene.replace(servo=scene.servo.replace(rate=rate)))
+
+
+def from_text(text: str, path: Path) -> Scene:
+    """The scene of a text. Raises RecordingError."""
+    try:
+        scene_file, problems = check_tables(parse_toml(text, path))
+        if scene_file is None:
+            raise ConfigurationError(problems, str(path))
+        return build_scene(scene_file)
+    except ConfigurationError as bad:
+        raise RecordingError(f"{path}: a scene in the recording is invalid: {bad}") from None
+
 
 T = TypeVar("T")
-Plain: TypeAlias = str | bool | int | float  # a value in a JSON file
 
 FORMAT, FORMAT_WITH_RIVALS = FORMATS[-2:]
 KEY, CHECK = b"punctura.recording", b"punctura.crc32"
 
 
-class _Run(TypedDict):
-    format: int
-    build: str
-    machine: str
-    began: str
-    began_ns: int
-    rate_hz: float
-    period_s: float
-    device: dict[str, Plain]  # DeviceInfo
-    gate: dict[str, Plain]  # GateLimits
-    limits: dict[str, Plain]  # ForceLimits
-    spent_N2s: float
-    scene: str
-    libraries: dict[str, str]
-
-
-class SecondRecord(TypedDict):
-    """The device under the thumb. Description has the same, as read."""
-
-    device: dict[str, Plain]  # DeviceInfo
-    limits: dict[str, Plain]  # ForceLimits
-
-
-class RivalRecord(TypedDict):
-    """RivalNumbers, as written."""
-
-    rival: str
-    numbers: dict[str, float]
-
-
-class RunRecord(_Run, total=False):
-    """The description as written when a recording begins. Description is the same, as read."""
-
-    about: JsonObject
-    second_device: SecondRecord
-    rivals: list[RivalRecord]
-
-
-class DeviceReport(TypedDict):
-    """DeviceAfter, as written."""
-
-    statements: list[str]
-    trouble: str
-
-
-def describe_run(loop: ServoLoop, about: JsonObject | None = None, thumb: ThumbLoop | None = None) -> RunRecord:
+def describe_run(loop: ServoLoop, about: JsonObject | None = None, thumb: ThumbLoop | None = None) -> JsonObject:
     """The description as known when a recording begins."""
     rate = loop.scene.servo.rate
     now_ns = time.time_ns()
-    described: RunRecord = {
-        "format": FORMAT,
-        "build": build_id(),
-        "machine": machine(),
-        "began": datetime.datetime.fromtimestamp(now_ns / 1e9, datetime.timezone.utc).isoformat(),
-        "began_ns": now_ns,
-        "rate_hz": rate,
-        "period_s": 1 / rate,
-        "device": _fields(loop.device.info),
-        "gate": _fields(loop.gate),
-        "limits": _fields(loop.limits),
-        "spent_N2s": loop.spent,
-        "scene": to_text(loop.scene, rate),
-        "libraries": {"pyarrow": pa.__version__, "numpy": np.__version__},
-    }
-    if about:
-        described["about"] = about
-    if loop.rivals:
-        described["format"] = FORMAT_WITH_RIVALS
-        described["rivals"] = [{"rival": rival.name, "numbers": rival.numbers} for rival in loop.rivals]
+    more: JsonObject = {"about": about} if about else {}
     if thumb is not None:
-        described["second_device"] = {"device": _fields(thumb.device.info), "limits": _fields(thumb.limits)}
-    return described
+        second = SecondDevice(device=DeviceBefore(**_fields(thumb.device.info)), limits=_fields(thumb.limits))
+        more["second_device"] = second
+    if loop.rivals:
+        more["rivals"] = [RivalNumbers(rival=rival.name, numbers=rival.numbers) for rival in loop.rivals]
+    return Description(
+        format=FORMAT_WITH_RIVALS if loop.rivals else FORMAT,
+        build=build_id(),
+        machine=machine(),
+        began=datetime.datetime.fromtimestamp(now_ns / 1e9, datetime.timezone.utc).isoformat(),
+        began_ns=now_ns,
+        rate_hz=rate,
+        period_s=1 / rate,
+        device=DeviceBefore(**_fields(loop.device.info)),
+        gate=_fields(loop.gate),
+        limits=_fields(loop.limits),
+        spent_N2s=loop.spent,
+        scene=to_text(loop.scene, rate),
+        libraries={"pyarrow": pa.__version__, "numpy": np.__version__},
+        **more,
+    ).model_dump(exclude_unset=True)
 
 
-def describe_device(device: Device, thumb: ThumbLoop | None = None) -> DeviceReport:
+def describe_device(device: Device, thumb: ThumbLoop | None = None) -> DeviceAfter:
     """The report of the device after a run, and of the second device."""
     troubles = [device.trouble()]
     if thumb is not None:
         troubles += [f"second device: {text}" for text in (words_of(thumb), thumb.device.trouble()) if text]
-    return {"statements": statements_of(device, thumb), "trouble": "; ".join(filter(None, troubles))}
+    return DeviceAfter(statements=statements_of(device, thumb), trouble="; ".join(filter(None, troubles)))
 
 
-def _fields(struct: object) -> dict[str, Plain]:
+def _fields(struct: object) -> dict[str, Any]:
     """The values of a plain struct. Values that are not JSON numbers become words: "nan", "inf"."""
     names = [name for name in dir(struct) if not name.startswith("_") and not callable(getattr(struct, name))]
     return {name: _plain(getattr(struct, name)) for name in names}
 
 
-def _plain(value: Plain) -> Plain:
+def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pyarrow as pa
 
 from punctura.extras import optional
-from punctura.record.columns import NEW_SCENES
+from punctura.progress import Report
+from punctura.record.columns import NEW_SCENES, in_pieces
 from punctura.record.recording import Recording
-from punctura.record.schema import in_pieces
 from punctura.ticks.arrow import words_of
 
 TICKS, SCENES = "punctura/tick", "punctura/scene"
@@ -23,7 +23,7 @@ _SCENE_SCHEMA = {
 }
 
 
-def mcap_steps(recording: Recording, out: Any, progress: Callable[[float], None] | None = None) -> Iterator[None]:
+def mcap_steps(recording: Recording, out: Any, progress: Report | None = None) -> Iterator[None]:
     """Writes ticks to topic punctura/tick and scenes to punctura/scene, batch by batch, to an open file.
 
     Raises ModuleNotFoundError if the package is missing.
@@ -38,7 +38,7 @@ class _Messages:
         self._stamp = self._began = recording.info.began_ns
         self._first_time: float | None = None
 
-    def steps(self, progress: Callable[[float], None] | None) -> Iterator[None]:
+    def steps(self, progress: Report | None) -> Iterator[None]:
         writer, recording = self._writer, self._recording
         writer.start(profile="", library=recording.info.build)
         writer.add_metadata("punctura.recording", {"json": json.dumps(recording.info.data)})

@@ -1,21 +1,63 @@
-"""Creates .part files, which their owner alone can read.
+"""Creates .part files, which their owner alone can read, and locks them while they are written.
 
-A file gets its name only after its first bytes are written, so a kill leaves no empty file.
+A file gets its name only after its first bytes are written, so a kill leaves no empty file. The system releases the
+lock when the process ends, so it shows whether a process still writes the file.
 """
 
 from __future__ import annotations
 
 import os
 import secrets
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
 from punctura.files.private import MODE
 from punctura.files.whole_file import give_name, rename_new, unnamed_file
-from punctura.record.errors import RecordingError
-from punctura.record.lock import in_use, lock
+from punctura.record.description import RecordingError
 from punctura.record.part_file import PartFile
+
+if sys.platform == "win32":
+    import msvcrt
+
+    _AT = 1 << 40  # beyond the end of any recording, because Windows blocks reads of a locked byte
+
+    def _lock(descriptor: int) -> None:
+        os.lseek(descriptor, _AT, os.SEEK_SET)
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+else:
+    import fcntl
+
+    def _lock(descriptor: int) -> None:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def lock(descriptor: int) -> bool | None:
+    """Locks an open file until it is closed; returns True on success.
+
+    False: another process, or another descriptor of this process, holds the lock. None: this file system has no locks.
+    """
+    try:
+        _lock(descriptor)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:
+        return None
+    return True
+
+
+def in_use(path: Path) -> bool:
+    """Whether a recorder holds this file. False if that cannot be determined."""
+    try:
+        descriptor = os.open(path, os.O_RDWR)
+    except OSError:
+        return False
+    try:
+        return lock(descriptor) is False
+    finally:
+        os.close(descriptor)
+
 
 _MOST_WITHOUT_TICK = 1 << 20  # bytes: a header and an incomplete first batch are smaller
 _TRIES = 100

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +11,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from punctura.files.whole_file import whole_file
-from punctura.record.errors import RecordingError
+from punctura.progress import Report
+from punctura.record.description import RecordingError
 from punctura.record.header import from_metadata, to_metadata
 from punctura.record.stream import BROKEN
-
-Progress = Callable[[float], None]
+from punctura.ticks.files import ParquetOutput, parquet_output_to
 
 _ROWS_A_GROUP = 1 << 15  # maximum
 _GROUP_BYTES = 32 << 20  # approximate; a tick of 64 membranes takes 6 kB
@@ -32,7 +32,7 @@ class ParquetRecording:
             self.info = from_metadata(file.schema_arrow, path)
             self.rows = file.metadata.num_rows
 
-    def batches(self, progress: Progress | None = None) -> Iterator[pa.RecordBatch]:
+    def batches(self, progress: Report | None = None) -> Iterator[pa.RecordBatch]:
         with self._open() as file:
             done = 0
             try:
@@ -57,41 +57,17 @@ def rows_a_group(schema: pa.Schema) -> int:
     return max(256, min(_ROWS_A_GROUP, _GROUP_BYTES // (8 * len(schema))))
 
 
-class _Groups:
-    """Collects batches into row groups."""
-
-    def __init__(self, writer: pq.ParquetWriter, schema: pa.Schema) -> None:
-        self._writer, self._schema = writer, schema
-        self._most = rows_a_group(schema)
-        self._batches: list[pa.RecordBatch] = []
-        self._rows = 0
-
-    def write(self, batch: pa.RecordBatch) -> None:
-        self._batches.append(batch)
-        self._rows += len(batch)
-        if self._rows >= self._most:
-            self.flush()
-
-    def flush(self) -> None:
-        if self._rows:
-            batches = [batch.replace_schema_metadata(self._schema.metadata) for batch in self._batches]
-            self._writer.write_table(pa.Table.from_batches(batches, self._schema), row_group_size=self._rows)
-        self._batches, self._rows = [], 0
-
-
 @contextmanager
 def parquet_output(
     path: Path, schema: pa.Schema, data: Mapping[str, object], replace: bool = True
-) -> Iterator[_Groups]:
+) -> Iterator[ParquetOutput]:
     """Writes a finished recording. The file gets its name only when it is complete; an error leaves no file.
 
-    Dictionary encoding is off, because it merges different NaNs; numbers keep their bits. replace: see whole_file.
+    replace: see whole_file.
     """
     schema = schema.with_metadata(to_metadata(data, schema))
-    with whole_file(path, replace, private=True) as place, _writer(place, schema) as writer:
-        groups = _Groups(writer, schema)
-        yield groups
-        groups.flush()
+    with whole_file(path, replace, private=True) as place, _output(place, schema) as output:
+        yield output
 
 
 def parquet_steps(
@@ -99,20 +75,18 @@ def parquet_steps(
 ) -> Iterator[None]:
     """Writes a finished recording to an open file, batch by batch."""
     schema = schema.with_metadata(to_metadata(data, schema))
-    with _writer(out, schema) as writer:
-        groups = _Groups(writer, schema)
+    with _output(out, schema) as output:
         for batch in batches:
-            groups.write(batch)
+            output.write(batch)
             yield
-        groups.flush()
 
 
-def _writer(where: Any, schema: pa.Schema) -> pq.ParquetWriter:
-    return pq.ParquetWriter(
+def _output(where: Any, schema: pa.Schema) -> AbstractContextManager[ParquetOutput]:
+    return parquet_output_to(
         where,
         schema,
+        rows_a_group(schema),
         compression="zstd",
-        use_dictionary=[f.name for f in schema if pa.types.is_dictionary(f.type)],
         use_byte_stream_split=[f.name for f in schema if pa.types.is_floating(f.type)],
         write_page_checksum=True,
     )

@@ -17,15 +17,13 @@ from punctura._core import Scene, ServoLoop, ThumbLoop
 from punctura.defects import explain
 from punctura.device_words import room_note
 from punctura.record.append_file import AppendFile
-from punctura.record.backlog import Backlog, Piece
-from punctura.record.errors import RecordingError
-from punctura.record.finish import finish_recording, part_path
+from punctura.record.columns import raw_batch
+from punctura.record.description import RecordingError
+from punctura.record.finish import RecorderStatus, finish_recording, part_path
 from punctura.record.header import describe_device, describe_run
 from punctura.record.scene_log import SceneLog
-from punctura.record.schema import raw_batch
-from punctura.record.status import RecorderStatus
 from punctura.record.stream import Encoder
-from punctura.record.writer import Writer
+from punctura.record.writer import Backlog, Piece, Writer
 from punctura.results import JsonObject
 from punctura.ticks import COMMAND_SCENE, Ticks
 

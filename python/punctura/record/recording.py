@@ -13,13 +13,13 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from punctura.record.description import FaultAt, Summary
-from punctura.record.errors import MissingRecordingError, RecordingError
+from punctura.progress import Report
+from punctura.record.columns import numbers, ticks_of
+from punctura.record.description import FaultAt, MissingRecordingError, RecordingError, Summary
 from punctura.record.finish import finished_path, part_path
 from punctura.record.header import RecordingInfo
 from punctura.record.parquet_file import ParquetRecording
 from punctura.record.part_file import PartFile
-from punctura.record.schema import numbers, ticks_of
 from punctura.record.stream import begins_stream
 from punctura.ticks import Ticks
 
@@ -66,7 +66,7 @@ class Recording:
         """The first 1000 faults, each with its tick, name and meaning."""
         return self.summary.faults
 
-    def batches(self, progress: Callable[[float], None] | None = None) -> Iterator[pa.RecordBatch]:
+    def batches(self, progress: Report | None = None) -> Iterator[pa.RecordBatch]:
         """Yields all ticks in order, in constant memory. progress is called with the completed share, 0 to 1."""
         return self._source.batches(progress)
 

@@ -1,9 +1,8 @@
-"""Replays a recording. The same inputs through the same servo step must give the same forces, bit for bit."""
+"""Replays a recording: through the same servo step, which must give the same forces, or as a device."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,16 +12,24 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from punctura._core import Replay, Scene
-from punctura.record.build_id import build_id
-from punctura.record.columns import LOST, NEW_SCENES, Columns
-from punctura.record.errors import RecordingError
+from punctura._core import DeviceInfo, Replay, ReplayDevice, Scene
+from punctura.progress import Report
+from punctura.record.columns import (
+    INPUTS,
+    LOST,
+    NEW_SCENES,
+    input_ticks,
+    membranes_in,
+    numbers,
+    raw_batch,
+    worded,
+)
+from punctura.record.description import DeviceBefore, RecordingError
+from punctura.record.header import build_id, from_text
 from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
-from punctura.record.scene_text import from_text
-from punctura.record.schema import input_ticks, membranes_in, numbers, raw_batch, worded
-from punctura.record.target import check_target
-from punctura.ticks import ABSENT, COMMAND_SCENE
+from punctura.record.save_as import check_target
+from punctura.ticks import ABSENT, COMMAND_SCENE, Columns, Ticks
 from punctura.ticks.flat import flatten
 
 
@@ -51,7 +58,7 @@ class ReplayResult:
 def replay(
     path: str | os.PathLike[str],
     out: str | os.PathLike[str] | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Report | None = None,
 ) -> ReplayResult:
     """Recomputes every tick of a recording from its inputs and compares all columns bit for bit.
 
@@ -166,3 +173,59 @@ def _bits(column: NDArray[Any]) -> NDArray[Any]:
     if column.dtype != np.float64:
         return column
     return np.where(np.isnan(column), np.float64(np.nan), column).view(np.uint64)
+
+
+def replay_device(
+    path: str | os.PathLike[str], real_time: bool = True, priority: int = 80, processor: int = -1
+) -> ReplayDevice:
+    """A device that plays every sample of a recording, finished or not, at the recorded rate.
+
+    A loop with the recording's scene and limits, armed before its start, computes the recorded forces bit for bit.
+    Commands to the recorded loop (another scene, a pause) are not repeated; `replay` repeats them.
+    real_time: False runs as fast as possible. priority: real-time scheduling priority, 0 for none. processor: CPU
+    number, -1 for any. Holds all samples in memory, 80 bytes each. Raises RecordingError.
+    """
+    recording = open_recording(path)
+    samples = _samples(recording)
+    try:
+        rate, before = recording.info.header.rate_hz, recording.info.header.device
+        device = ReplayDevice(
+            samples.position,
+            samples.axis,
+            rate,
+            time=samples.time,
+            sequence=samples.sequence,
+            buttons=samples.buttons,
+            healthy=samples.healthy,
+            motor_temperature=samples.motor_temperature,
+            recorded=_info(before),
+            real_time=real_time,
+            priority=priority,
+            processor=processor,
+        )
+        device.spent = recording.info.spent
+        return device
+    except (TypeError, ValueError) as bad:
+        raise RecordingError(f"{recording.path}: its motion cannot be replayed as a device: {bad}") from None
+
+
+def _info(before: DeviceBefore) -> DeviceInfo:
+    return DeviceInfo(
+        backend=before.backend,
+        model=before.model,
+        serial=before.serial,
+        has_orientation=before.has_orientation,
+        button_count=before.button_count,
+        max_force=float(before.max_force),  # float(): an unknown number is the word "nan" in JSON
+        continuous_force=float(before.continuous_force),
+        max_stiffness=float(before.max_stiffness),
+        encoder_step=float(before.encoder_step),
+    )
+
+
+def _samples(recording: Recording) -> Ticks:
+    """All inputs, read batch by batch so that the other columns do not fill the memory."""
+    parts = [input_ticks(batch) for batch in recording.batches()]
+    if sum(map(len, parts)) == 0:
+        raise RecordingError(f"{recording.path} holds no tick to replay")
+    return Ticks({name: np.concatenate([part[name] for part in parts]) for name in INPUTS})

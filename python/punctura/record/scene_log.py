@@ -7,7 +7,7 @@ import time
 from collections import deque
 
 from punctura._core import Scene, ServoLoop
-from punctura.record.scene_text import to_text
+from punctura.record.header import to_text
 
 _PATIENCE_S = 0.5  # wait this long for a running loop that does not tick
 

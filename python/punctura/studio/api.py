@@ -21,7 +21,7 @@ from punctura.exercise.results import to_csv, to_json
 from punctura.exercise.xapi import to_xapi
 from punctura.extras import MissingPackageError
 from punctura.record import RecordingError, open_recording
-from punctura.record.pieces import export_pieces
+from punctura.record.save_as import export_pieces
 from punctura.studio.catalog import scene_outlines
 from punctura.studio.computing import LabError
 from punctura.studio.download import Download, json_of

@@ -14,7 +14,7 @@ from punctura._core import force_scale
 from punctura.errors import ConfigurationError
 from punctura.events import find_events
 from punctura.record import Recording
-from punctura.record.schema import ticks_of
+from punctura.record.columns import ticks_of
 from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS

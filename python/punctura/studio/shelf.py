@@ -17,8 +17,7 @@ from typing import TypeVar
 from punctura.files.private import private_folder
 from punctura.files.user_folder import user_folder
 from punctura.record import Recording, RecordingError, open_recording
-from punctura.record.lock import in_use
-from punctura.record.new_file import is_abandoned
+from punctura.record.new_file import in_use, is_abandoned
 from punctura.record.recording import read_found
 from punctura.studio.names import LONGEST, BadName, safe_name
 

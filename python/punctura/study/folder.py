@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 
 from punctura import PuncturaError
 from punctura.files.whole_file import whole_file, write_whole
-from punctura.record.lock import lock
+from punctura.record.new_file import lock
 
 TABLE = "trials.parquet"
 MARK = b"punctura.study"  # in the schema of each file: the digest of the plan whose rows it holds

@@ -46,22 +46,39 @@ def _plain(kind: pa.DataType) -> pa.DataType:
     return kind.value_type if isinstance(kind, pa.DictionaryType) else kind
 
 
-class _Parquet:
-    def __init__(self, writer: pyarrow.parquet.ParquetWriter) -> None:
-        self._writer = writer
+class ParquetOutput:
+    """Collects tables or batches into row groups."""
+
+    def __init__(self, writer: pyarrow.parquet.ParquetWriter, schema: pa.Schema, rows_a_group: int) -> None:
+        self._writer, self._schema, self._most = writer, schema, rows_a_group
         self._tables: list[pa.Table] = []
         self._rows = 0
 
-    def write(self, table: pa.Table) -> None:
-        self._tables.append(table)
+    def write(self, rows: pa.Table | pa.RecordBatch) -> None:
+        table = pa.Table.from_batches([rows]) if isinstance(rows, pa.RecordBatch) else rows
+        self._tables.append(table.replace_schema_metadata(self._schema.metadata))
         self._rows += len(table)
-        if self._rows >= _ROWS_A_GROUP:
+        if self._rows >= self._most:
             self.flush()
 
     def flush(self) -> None:
         if self._rows:
             self._writer.write_table(pa.concat_tables(self._tables), row_group_size=self._rows)
         self._tables, self._rows = [], 0
+
+
+@contextmanager
+def parquet_output_to(where: Any, schema: pa.Schema, rows_a_group: int, **options: Any) -> Iterator[ParquetOutput]:
+    """Writes Parquet to a path or an open file. options: of pyarrow's ParquetWriter.
+
+    Only words have a dictionary. One of numbers that hardly repeat would take two thirds of the time, save nothing,
+    and merge different NaNs; so numbers keep their bits.
+    """
+    words = [field.name for field in schema if isinstance(field.type, pa.DictionaryType)]
+    with pyarrow.parquet.ParquetWriter(where, schema, use_dictionary=words, **options) as writer:
+        output = ParquetOutput(writer, schema, rows_a_group)
+        yield output
+        output.flush()
 
 
 SUFFIXES = (".csv", ".parquet")
@@ -81,12 +98,8 @@ def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
     """Opens a result file. It gets its name when it is complete; an error leaves no file."""
     with whole_file(path) as place:
         if path.suffix.lower() == ".parquet":
-            words = [field.name for field in schema if isinstance(field.type, pa.DictionaryType)]
-            # A dictionary of numbers that hardly repeat would take two thirds of the time and save nothing.
-            with pyarrow.parquet.ParquetWriter(place, schema, use_dictionary=words) as writer:
-                parquet = _Parquet(writer)
-                yield parquet
-                parquet.flush()
+            with parquet_output_to(place, schema, _ROWS_A_GROUP) as output:
+                yield output
         else:
             with pa.OSFile(place, "wb") as file:
                 yield CsvOutput(file, schema)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from punctura._core import Needle
 from punctura.record import Recording, RecordingError, open_recording
-from punctura.record.schema import ticks_of
+from punctura.record.columns import ticks_of
 from punctura.trace.columns import choose_columns
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine

@@ -133,7 +133,7 @@ def test_the_command_line_says_so_in_one_sentence(tool, recorded, tmp_path, verb
 
 def test_a_fault_that_this_version_does_not_know_is_counted_by_its_number(start, tmp_path):
     import pyarrow as pa
-    from punctura.record.survey import Survey
+    from punctura.record.part_file import Survey
 
     batch = pa.RecordBatch.from_pydict(
         {"tick": pa.array([0, 1]), "lost": pa.array([0, 0]), "fault": pa.array([0, 200], pa.uint8()),

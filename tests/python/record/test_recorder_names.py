@@ -11,7 +11,7 @@ import sys
 import pytest
 from punctura.record import RecordingError, open_recording
 from punctura.record.append_file import AppendFile
-from punctura.record.lock import in_use
+from punctura.record.new_file import in_use
 
 KILLED = """
 import os, signal, sys

@@ -15,7 +15,7 @@ import pytest
 from punctura import Strokes, load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, export, open_recording
-from punctura.record.pieces import PIECE_BYTES, export_pieces
+from punctura.record.save_as import PIECE_BYTES, export_pieces
 from punctura.studio import connections, download
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
