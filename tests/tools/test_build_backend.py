@@ -152,7 +152,7 @@ def test_node_modules_that_were_there_stay(pip_with_compiler: Pip) -> None:
     assert theirs.exists()
 
 
-def test_run_and_test_keep_node_modules_for_their_next_build(pip_with_compiler: Pip) -> None:
+def test_the_tests_keep_node_modules_for_their_next_build(pip_with_compiler: Pip) -> None:
     assert pip_with_compiler.call(PUNCTURA_KEEP_NODE_MODULES="1").returncode == 0
     assert (pip_with_compiler.tree / "web/node_modules/much").exists()
     assert "PUNCTURA_KEEP_NODE_MODULES=1" in (ROOT / "tools/setup.sh").read_text()

@@ -91,6 +91,18 @@ def test_a_folder_of_packages_in_pips_settings_is_given_to_uv(tmp_path):
     assert "--find-links /opt/wheels --python" in set_up.log("uv")
 
 
+def test_precompiled_headers_are_emptied_and_stay_as_old_as_they_were(tmp_path):
+    header = tmp_path / "build/python/a b/cmake_pch.hxx.gch"
+    header.parent.mkdir(parents=True)
+    header.write_text("much")
+    os.utime(header, (1e9, 1e9))
+    (tmp_path / "tools").symlink_to(ROOT / "tools")
+    script = 'root=$1; source "$root/tools/setup.sh"; empty_precompiled_headers'
+    subprocess.run(["bash", "-c", script, "bash", str(tmp_path)], check=True)
+    assert header.read_bytes() == b"" and header.stat().st_mtime == 1e9
+    assert list(header.parent.iterdir()) == [header]
+
+
 PACKAGES = """
 root=$1 archive="$2"
 source "$root/tools/setup.sh"

@@ -56,7 +56,7 @@ def _compiler() -> None:
 
 def _page() -> None:
     try:
-        # ./run and ./test keep node_modules for their next build. A plain pip install must leave the clone unchanged.
+        # ./test keeps node_modules for its next build. ./run and a plain pip install leave none.
         studio_page.build(Path.cwd(), keep_modules="PUNCTURA_KEEP_NODE_MODULES" in os.environ)
     except studio_page.PageError as error:
         _give_up(error)
