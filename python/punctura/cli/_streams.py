@@ -7,9 +7,9 @@ import io
 import os
 import sys
 from contextlib import suppress
-from typing import Any, TextIO, cast
+from typing import Any, cast
 
-from punctura.process.dropping_stream import DroppingStream
+from punctura.process.dropping_stream import DroppingStream, terminal
 
 
 def open_closed_streams() -> None:
@@ -62,8 +62,7 @@ def name_stdout() -> None:
 
 def never_wait_for_stderr() -> DroppingStream:
     """From here on, sys.stderr drops text that is not read in time. Returns that stream."""
-    if not isinstance(sys.stderr, DroppingStream):
-        sys.stderr = cast(TextIO, DroppingStream(sys.stderr))
+    sys.stderr = terminal()
     return cast(DroppingStream, sys.stderr)
 
 

@@ -20,7 +20,7 @@ def run_page(
 
     Raises DeviceError, Ended if a signal ended the run, StudioError (its text says what to do), ConfigurationError.
     """
-    for package in ("pyarrow", "starlette", "h11", "uvicorn", "websockets"):
+    for package in ("pyarrow", "starlette", "uvicorn", "websockets"):
         optional(package, "studio", "the page of punctura run")
     # Imported here, because importing the server takes long.
     from punctura.exercise import load_exercise

@@ -7,11 +7,12 @@ import io
 import math
 import os
 import signal
+import sys
 import threading
 import time
 from collections import deque
 from contextlib import suppress
-from typing import Any, TextIO
+from typing import Any, TextIO, cast
 
 ROOM_BYTES = 1 << 16
 CUT = " ... punctura: the rest of this line is left out: it is too long"
@@ -178,3 +179,17 @@ class DroppingStream(io.TextIOBase):
     @property
     def errors(self) -> str:  # type: ignore[override]
         return "backslashreplace"
+
+
+_terminal: DroppingStream | None = None
+
+
+def terminal() -> TextIO:
+    """The one queue for sys.stderr: sys.stderr itself where it never waits. A new one when sys.stderr is another."""
+    global _terminal
+    stream = cast(TextIO | None, sys.stderr)
+    if isinstance(stream, DroppingStream) or stream is None:
+        return cast(TextIO, stream or io.StringIO())
+    if _terminal is None or _terminal.stream is not stream or _terminal._over:
+        _terminal = DroppingStream(stream)
+    return cast(TextIO, _terminal)

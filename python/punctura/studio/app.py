@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import re
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -26,7 +26,6 @@ from punctura.studio.figures import Figures
 from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
-from punctura.studio.protocols import CONNECTIONS
 from punctura.studio.security import PROTOCOL, WITH_TOKEN, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
@@ -111,14 +110,16 @@ class Studio:
         return routes
 
 
-def build_app(studio: Studio, port: int, token: str, connections: Connections) -> Guard:
-    """The application, behind its guard."""
+def build_app(
+    studio: Studio, port: int, token: str, connections: Connections, report: Callable[[Exception], object]
+) -> Guard:
+    """The application, behind its guard. report: gets what it did not foresee."""
 
     @asynccontextmanager
-    async def life(app: Any) -> AsyncIterator[dict[str, Connections]]:
+    async def life(app: Any) -> AsyncIterator[None]:
         studio.hub.attach(asyncio.get_running_loop())
         watch = asyncio.create_task(connections.watch())
-        yield {CONNECTIONS: connections}
+        yield
         watch.cancel()
 
-    return Guard(Starlette(routes=studio.routes(), lifespan=life), port, token)
+    return Guard(Starlette(routes=studio.routes(), lifespan=life), port, token, connections, report)

@@ -1,7 +1,7 @@
 """All connections to the server: how many are allowed, and when one is closed.
 
 A stranger is a connection that has not sent the token. Strangers have a limit of their own, so that they cannot use up
-the connections of the user, who has the token. Everything here runs on the server's event loop.
+the connections of the user, who has the token. Everything here runs on the server's event loop, behind gate.py.
 """
 
 from __future__ import annotations
@@ -48,9 +48,11 @@ class Connection:
     since: float = field(init=False)  # accepted, or the last request was answered
     unread_since: float | None = None  # MOST_BUFFERED was reached
     closing_since: float | None = None
+    peer: tuple[str, int] = field(init=False)  # address and port of the other end
 
     def __post_init__(self) -> None:
         self.since = self.clock()
+        self.peer = self.transport.get_extra_info("peername")
         self.transport.set_write_buffer_limits(high=MOST_BUFFERED)
 
     @contextmanager
@@ -94,11 +96,13 @@ class Connections:
         # In the order of their arrival: the first stranger is the oldest.
         self.strangers: dict[Connection, None] = {}
         self.known: dict[Connection, None] = {}
+        self._by_peer: dict[tuple[str, int], Connection] = {}
 
     def add(self, transport: asyncio.Transport) -> Connection:
         """Adds a new connection. If there are too many strangers, closes the oldest."""
         connection = Connection(transport, self._clock)
         self.strangers[connection] = None
+        self._by_peer[connection.peer] = connection
         if len(self.strangers) > self._most_strangers:
             oldest = next(iter(self.strangers))
             del self.strangers[oldest]
@@ -116,7 +120,12 @@ class Connections:
         connection.known = True
         return True
 
+    def of(self, peer: tuple[str, int] | None) -> Connection | None:
+        """The connection to this address and port, as in the scope of a request; None if it has ended."""
+        return self._by_peer.get(peer) if peer else None
+
     def remove(self, connection: Connection) -> None:
+        self._by_peer.pop(connection.peer, None)
         self.strangers.pop(connection, None)
         self.known.pop(connection, None)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ipaddress
 import secrets
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from urllib.parse import parse_qs
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -25,7 +25,6 @@ from punctura.studio.limits import (
     REFUSED_AT_ONCE,
     Bucket,
 )
-from punctura.studio.protocols import CONNECTION, CONNECTIONS
 
 PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
@@ -70,10 +69,12 @@ class TooLarge(Exception):
 
 
 class Guard:
-    """ASGI middleware. port: the server's; token: of this run."""
+    """ASGI middleware. port: the server's; token: of this run; report: gets what the application did not foresee."""
 
-    def __init__(self, app: ASGIApp, port: int, token: str) -> None:
-        self._app, self._token = app, token
+    def __init__(
+        self, app: ASGIApp, port: int, token: str, connections: Connections, report: Callable[[Exception], object]
+    ) -> None:
+        self._app, self._token, self._connections, self._report = app, token, connections, report
         names = ["127.0.0.1", "localhost", "[::1]"]
         self._hosts = {f"{name}:{port}" for name in names} | (set(names) if port == 80 else set())
         self.bucket = Bucket(HTTP_A_SECOND, HTTP_AT_ONCE)
@@ -84,18 +85,23 @@ class Guard:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        with scope["state"][CONNECTION].serving():
+        connection = self._connections.of(scope.get("client"))
+        if connection is None:
+            await _refuse(scope, send, Refused(403, "The studio serves this computer only."))
+            return
+        with connection.serving():
             try:
-                self._check(scope, Headers(scope=scope))
+                self._check(scope, Headers(scope=scope), connection)
+                serve = self._app if scope["type"] == "websocket" else self._serve
+                await serve(scope, receive, send)
             except Refused as no:
                 await _refuse(scope, send, no)
-                return
-            if scope["type"] == "websocket":
-                await self._app(scope, receive, send)
-            else:
-                await self._serve(scope, receive, send)
+            except Exception as error:
+                if not connection.transport.is_closing():  # else the other end has gone, or sent what is no HTTP
+                    self._report(error)
+                raise
 
-    def _check(self, scope: Scope, headers: Headers) -> None:
+    def _check(self, scope: Scope, headers: Headers, connection: Connection) -> None:
         """Raises Refused. Requests without the token do not use up the limits of requests with it."""
         try:
             with_token = self._let_in(scope, headers)
@@ -108,9 +114,7 @@ class Guard:
             if not self.free.take():
                 raise Refused(429, "Too many requests without the token; wait a second.")
             return
-        connections: Connections = scope["state"][CONNECTIONS]
-        connection: Connection = scope["state"][CONNECTION]
-        if not connections.admit(connection):
+        if not self._connections.admit(connection):
             raise Refused(503, "Too many connections are open with this token; close some pages.")
         if not self.bucket.take():
             raise Refused(429, "Too many requests; wait a second.")

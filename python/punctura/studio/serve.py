@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import secrets
 import socket
@@ -16,19 +17,20 @@ from pathlib import Path
 import uvicorn
 
 from punctura._core import DeviceError, PuncturaError
+from punctura.defects import explain
 from punctura.exercise import ResultStore
 from punctura.live.supervisor import Supervisor
+from punctura.process.dropping_stream import terminal
 from punctura.process.signals import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app
 from punctura.studio.catalog import Exercises
 from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.figures import likely_folders
+from punctura.studio.gate import gate
 from punctura.studio.hub import Hub
 from punctura.studio.limits import ACCEPTED_AT_ONCE, LISTEN_QUEUE, MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
 from punctura.studio.own_exercises import OwnExercises
-from punctura.studio.protocols import BoundedHttp, BoundedSocket
-from punctura.studio.quiet import quiet_server
 from punctura.studio.run import Settings
 from punctura.studio.session import Session
 from punctura.studio.shelf import Shelf, default_folder
@@ -81,15 +83,16 @@ class StudioServer:
         self.address = Address(self._socket.getsockname()[1], token or secrets.token_urlsafe(24))
         self.studio = Studio(self.session, self.hub, page, self.address.token, likely_folders())
         self.connections = Connections(*room(open_file_limit()))
-        self.guard = build_app(self.studio, self.address.port, self.address.token, self.connections)
+        self.guard = build_app(self.studio, self.address.port, self.address.token, self.connections, report_defect)
         config = uvicorn.Config(
             self.guard,
-            http=BoundedHttp,
-            ws=BoundedSocket,
+            http="h11",
+            ws="websockets-sansio",
             ws_max_size=MOST_SCENE_TEXT,
             ws_per_message_deflate=False,
             ws_ping_interval=None,
             log_config=None,
+            log_level="critical",  # the rest are messages that strangers cause; the guard reports defects
             access_log=False,
             server_header=False,
             proxy_headers=False,
@@ -97,13 +100,16 @@ class StudioServer:
             backlog=ACCEPTED_AT_ONCE,
         )
         self._server = uvicorn.Server(config)
-        self._thread = threading.Thread(
-            target=self._server.run, kwargs={"sockets": [self._socket]}, name="punctura-server", daemon=True
-        )
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()), name="punctura-server", daemon=True)
+
+    async def _serve(self) -> None:
+        loop = asyncio.get_running_loop()
+        loop.set_exception_handler(lambda _, context: report_defect(context.get("exception")))
+        gate(loop, self.connections)
+        await self._server.serve(sockets=[self._socket])
 
     def start(self) -> None:
         """Returns when the server answers and ticks come."""
-        quiet_server()
         self._thread.start()
         while not self._server.started:
             if not self._thread.is_alive():
@@ -155,6 +161,12 @@ def run_studio(
         raise server.session.failure
     if server.session.failure:
         raise RuntimeError("the studio's worker has ended") from server.session.failure
+
+
+def report_defect(error: BaseException | None) -> None:
+    """Logs what nobody foresaw, with one line on the terminal. From any thread; never waits."""
+    if error and (text := explain(error)):
+        print(f"punctura: {text}", file=terminal())
 
 
 def need_page(page: Path) -> None:

@@ -1,14 +1,13 @@
 """The rules for the number of connections and for closing them, with a simulated clock."""
 
-import importlib
 import re
-from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 from punctura.studio import connections as rules
-from punctura.studio import limits, protocols
+from punctura.studio import limits
 from punctura.studio.connections import Connections, open_file_limit, room
+from punctura.studio.gate import Frames
 from punctura.studio.limits import CLOSE_S, FILES_KEPT, FILES_WANTED, IDLE_S, STRANGER_S, UNREAD_S
 
 DOCS = Path(__file__).parents[3] / "docs" / "studio-server.md"
@@ -19,6 +18,9 @@ class Transport:
 
     def __init__(self):
         self.written, self.aborted, self.closing = b"", False, False
+
+    def get_extra_info(self, name):
+        return {"peername": ("127.0.0.1", id(self))}[name]
 
     def set_write_buffer_limits(self, high):
         self.high = high
@@ -184,25 +186,31 @@ def test_a_limit_of_open_files_that_may_not_be_raised_stays(monkeypatch):
     assert open_file_limit() == 256
 
 
+def frame(payload, masked=True, first=0x82):
+    size = len(payload)
+    extended = b"" if size < 126 else size.to_bytes(2 if size < 1 << 16 else 8, "big")
+    short = size if size < 126 else 126 if size < 1 << 16 else 127
+    return bytes([first, short | (0x80 if masked else 0)]) + extended + (bytes(4) if masked else b"") + payload
+
+
+@pytest.mark.parametrize("masked", [True, False])
+@pytest.mark.parametrize("piece", [1, 2, 3, 7, 1 << 20])
+def test_frames_are_found_in_any_pieces_of_the_stream(piece, masked):
+    parts = [frame(b"\x82" * size, masked) for size in (0, 1, 125, 126, 0xFFFF, 0x10000, 0)]
+    data, ends = b"".join(parts), [sum(map(len, parts[:n])) for n in range(len(parts))]
+    for most in range(len(parts)):
+        left, found, read = iter([True] * most + [False]), Frames(), 0
+        for at in range(0, len(data), piece):
+            part = data[at : at + piece]
+            allowed = found.allowed(part, lambda left=left: next(left))
+            read += allowed
+            if allowed < len(part):
+                break
+        assert read == ends[most]
+
+
 def test_every_limit_stands_in_the_docs():
     table = DOCS.read_text(encoding="utf-8").split("## Limits")[1].split("## Measured")[0]
     names = {name: value for name, value in vars(limits).items() if name.isupper() and name != "SWEEP_S"}
     missing = [name for name, value in names.items() if not re.search(rf"(?<![\d,]){value:,.0f}(?![\d,])", table)]
     assert len(names) > 20 and not missing
-
-
-@pytest.mark.parametrize("package", ["uvicorn", "websockets"])
-def test_packages_whose_inside_is_used_have_an_upper_bound_which_holds_here(package):
-    text = (DOCS.parents[1] / "pyproject.toml").read_text(encoding="utf-8")
-    (bound,) = re.findall(rf'"{package}>=[\d.]+,<([\d.]+)"', text)
-    assert [int(n) for n in version(package).split(".")] < [int(n) for n in bound.split(".")]
-
-
-@pytest.mark.parametrize("name", ["handle_ping", "handle_cont", "handle_text"])
-def test_a_uvicorn_whose_methods_have_other_names_is_refused_at_the_import(monkeypatch, name):
-    kept = dict(vars(protocols))
-    with monkeypatch.context() as patch:
-        patch.delattr(protocols.WebSocketsSansIOProtocol, name)
-        with pytest.raises(ImportError, match=f"has no {name}, so limits of the studio would not act"):
-            importlib.reload(protocols)
-    vars(protocols).update(kept)

@@ -32,3 +32,9 @@ def test_a_worker_that_ends_by_a_defect_ends_the_run_with_it(served, page):
     served.session.jobs.post(unforeseen)
     wait_until(lambda: not served.session.running)
     assert isinstance(served.session.failure, IndexError)
+
+
+def test_a_defect_outside_the_api_is_logged_and_its_request_gets_an_answer(served, page, monkeypatch, log):
+    monkeypatch.setattr(served.guard, "_app", unforeseen)
+    assert page.get("/")[0] == 500
+    assert "IndexError: unforeseen" in wait_until(lambda: log.exists() and log.read_text())

@@ -303,7 +303,9 @@ def test_a_page_can_ask_why_its_socket_was_refused(guarded):
 def test_bytes_that_are_no_http_do_no_harm_and_are_not_logged(guarded, monkeypatch):
     logged, log = [], logging.StreamHandler()
     log.emit = lambda record: logged.append(record.getMessage())
-    monkeypatch.setattr(logging.getLogger("uvicorn.error"), "handlers", [log])
+    for name in ("uvicorn.error", "asyncio"):
+        monkeypatch.setattr(logging.getLogger(name), "handlers", [log])
+    monkeypatch.setattr(guarded.guard, "_report", logged.append)
     host = f"Host: 127.0.0.1:{guarded.address.port}".encode()
     body = b"POST / HTTP/1.1\r\n" + host + b"\r\nTransfer-Encoding: chunked\r\n\r\nno length\r\n"
     for data in (b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/9.9\r\n\r\n", b"\r\n" * 5000, b"G" * 100_000, body):

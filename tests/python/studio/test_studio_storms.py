@@ -13,7 +13,7 @@ import time
 import pytest
 from heed import heed_signals
 from punctura.studio import connections as rules
-from punctura.studio import protocols
+from punctura.studio import gate
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE, STRANGER_S
 from punctura.studio.wire.messages import Notice
@@ -108,8 +108,8 @@ def test_a_refused_socket_is_no_socket_and_its_pings_get_no_answer(guarded):
     ids=["pings", "pongs", "fragments"],
 )
 def test_frames_of_every_kind_are_counted(guarded, monkeypatch, frames):
-    monkeypatch.setattr(protocols, "REQUESTS_A_SECOND", 0.0)
-    monkeypatch.setattr(protocols, "CLOSE_S", 0.1)
+    monkeypatch.setattr(gate, "REQUESTS_A_SECOND", 0.0)
+    monkeypatch.setattr(gate, "CLOSE_S", 0.1)
     with tcp(guarded) as raw:
         raw.sendall(upgrade(guarded))
         assert b" 101 " in raw.recv(100)  # what is sent before the answer is not looked at
@@ -118,7 +118,7 @@ def test_frames_of_every_kind_are_counted(guarded, monkeypatch, frames):
 
 
 def test_a_ping_gets_no_answer_while_answers_are_not_read(guarded, monkeypatch):
-    monkeypatch.setattr(protocols, "MOST_PONGS", -1)
+    monkeypatch.setattr(gate, "MOST_PONGS", -1)
     with StudioClient(guarded.address.url) as page:
         answered = page._socket.ping()
         assert page.ask(do="take_control")["ok"]

@@ -15,19 +15,18 @@ from waiting import PATIENCE_S
 
 # Its server's thread has a lot to log before it may answer; what it has logged is said on stdout.
 FLOODED = """
-import logging, sys
+import sys
 from pathlib import Path
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Settings
-from punctura.studio.serve import StudioServer
+from punctura.studio.serve import StudioServer, report_defect
 
 folder = Path(sys.argv[1])
 server = StudioServer(from_name("k06-fig10"), Settings(device="simulated"), page=folder, folder=folder / "kept")
 server.start()
 print(server.address.url, flush=True)
 sys.stdin.readline()
-log = logging.getLogger("uvicorn.error")
-server.hub.post(lambda: [log.error("x" * 1000) for _ in range(500)])
+server.hub.post(lambda: [report_defect(OSError("x" * 1000)) for _ in range(500)])
 server.hub.post(lambda: print("flooded", flush=True))
 sys.stdin.readline()
 server.stop()
