@@ -20,7 +20,7 @@ constexpr double live_noise = 4e-3;  // N
 struct LiveRun {
   LiveEstimate live{};
   Noise noise{7};
-  double depth = 0;
+  double depth = 0, scale = 1;
   int found = 0;
 
   /// `seconds` at a speed (m/s). force(depth, time): N, without noise.
@@ -29,7 +29,7 @@ struct LiveRun {
     const int n = static_cast<int>(seconds / live_period);
     for (int k = 0; k < n; ++k) {
       depth += speed * live_period;
-      const double measured = force(depth, k * live_period) + live_noise * noise.normal();
+      const double measured = force(depth, k * live_period) + scale * live_noise * noise.normal();
       found += live.step(depth, measured, live_period).punctured ? 1 : 0;
     }
   }
@@ -90,6 +90,43 @@ TEST_CASE("a sudden drop of the force is found within 4 ms, and once") {
   CHECK(run.live.reading().plateau.value == doctest::Approx(0.3).epsilon(0.02));
   CHECK(run.live.reading().drop == doctest::Approx(0.5).epsilon(0.05));
   CHECK(run.live.reading().puncture_depth == doctest::Approx(4e-3).epsilon(0.02));
+}
+
+TEST_CASE("a thick wall that lets go slowly is one puncture, also with noise, a tremor or a rest within its fall") {
+  const auto wall = [](double z, double) {
+    return z < 0 ? 0 : z < 4e-3 ? 200 * z : std::max(0.2, 0.8 - 250 * (z - 4e-3));
+  };
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (const double scale : {1.0, 4.0}) {
+      LiveRun run;
+      LiveSettings settings;
+      settings.noise = scale * live_noise;
+      run.live = LiveEstimate(settings);
+      run.noise = Noise(seed);
+      run.scale = scale;
+      run.depth = -1e-3;
+      run.go(1.5, 4e-3, wall);  // 1 mm into the fall
+      CHECK(run.found == 1);
+      if (seed % 3 == 1) run.go(1.0, 0, [&](double z, double t) { return wall(z, 0) - 0.1 * (1 - std::exp(-4 * t)); });
+      if (seed % 3 == 2) {
+        const double turn = run.depth, force = wall(turn, 0);
+        const auto elastic = [&](double z, double) { return force - 1000 * (turn - z); };
+        run.go(0.01, -1e-2, elastic);
+        run.go(0.01, 1e-2, elastic);
+      }
+      run.go(2.0, 4e-3, wall);
+      CHECK(run.found == 1);
+      CHECK(run.live.reading().drop == doctest::Approx(0.6).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("a wall within the fall of the one before it is a puncture of its own") {
+  LiveRun run;
+  run.go(2.5, 4e-3, [](double z, double) {
+    return z < 4e-3 ? 200 * z : z < 5e-3 ? 0.8 - 250 * (z - 4e-3) : z < 6e-3 ? 0.55 + 300 * (z - 5e-3) : 0.3;
+  });
+  CHECK(run.found == 2);
 }
 
 TEST_CASE("a withdrawal, a relaxing hold and a wrong tick are no punctures") {

@@ -45,10 +45,11 @@ class LivePuncture {
     depth_ = depth;
     force_ = force;
     calm_ += calming * (force - calm_);
+    const bool deeper = depth > deepest_;
     deepest_ = std::max(deepest_, depth);
 
+    if (falling_) return end_of_fall(force, deeper);
     const double unloaded = settings_.unloading * (deepest_ - depth), held = force + unloaded;
-    if (falling_) return end_of_fall(force);
     if (velocity_ < settings_.least_speed) {
       sum_ = 0;
       if (velocity_ < 0 && deepest_ - depth > far_back) deepest_ = depth + far_back;  // a withdrawal, not a tremor
@@ -60,8 +61,7 @@ class LivePuncture {
     sum_ = std::max(0.0, sum_ + std::min(4.0, (greatest_ - held - slack) / noise()));
     if (sum_ < settings_.limit) return false;
     falling_ = true;
-    least_ = force;
-    low_ = calm_;
+    least_ = low_ = calm_;
     low_at_ = depth;
     sum_ = 0;
     drop_ = greatest_ - force;
@@ -94,17 +94,23 @@ class LivePuncture {
   static constexpr double far_back = 2e-4;      ///< more than a tremor, m
   static constexpr double flat = 3e-4;          ///< way without a fall that ends a drop, m
 
-  /// The drop ends when the force has risen again by a few standard deviations, or has not fallen over `flat`, as on
-  /// the plateau behind a wall.
-  bool end_of_fall(double force) noexcept {
-    drop_ = std::max(drop_, greatest_ - force);
-    least_ = std::min(least_, force);
-    if (calm_ < low_ - std::max(2 * noise(), 0.1 * settings_.least_drop)) {
-      low_ = calm_;
-      low_at_ = depth_;
+  /// The drop ends when the needle draws back, when the force has risen again by a few standard deviations, or has not
+  /// fallen over `flat`, as on the plateau behind a wall. After a rest or a tremor within a thick wall, the force comes
+  /// back to where it was and falls on: only ticks deeper than before count, after a rest those deeper by `far_back`.
+  bool end_of_fall(double force, bool deeper) noexcept {
+    bool ends = deepest_ - depth_ > 2 * far_back;
+    if (velocity_ < settings_.least_speed) {
+      deepest_ = std::max(deepest_, depth_ + far_back);
+    } else if (deeper) {
+      drop_ = std::max(drop_, greatest_ - force);
+      least_ = std::min(least_, calm_);
+      if (calm_ < low_ - std::max(noise(), 0.1 * settings_.least_drop)) {
+        low_ = calm_;
+        low_at_ = depth_;
+      }
+      ends = calm_ > least_ + std::max(3 * noise(), 0.5 * settings_.least_drop) || depth_ - low_at_ > flat;
     }
-    const bool rises = force > least_ + std::max(5 * noise(), 0.25 * settings_.least_drop);
-    if (rises || depth_ - low_at_ > flat || velocity_ < settings_.least_speed) {
+    if (ends) {
       falling_ = false;
       greatest_ = calm_;
       deepest_ = depth_;
