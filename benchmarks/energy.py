@@ -15,12 +15,13 @@ from pathlib import Path
 
 import numpy as np
 import punctura as pn
+from punctura.simulation import Experiment, Hand, Plant, Strokes
 
-STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=4, variation=0.0)
+STROKES = Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=4, variation=0.0)
 DEVICES = {
-    "Omni": pn.Plant(),
-    "Omni, ideal sensor": pn.Plant(encoder_step=0.0),
-    "no friction, ideal sensor": pn.Plant(friction=0.0, encoder_step=0.0),
+    "Omni": Plant(),
+    "Omni, ideal sensor": Plant(encoder_step=0.0),
+    "no friction, ideal sensor": Plant(friction=0.0, encoder_step=0.0),
 }
 
 
@@ -40,7 +41,7 @@ def rows() -> list[dict[str, object]]:
             for device_name, plant in DEVICES.items():
                 scene = pn.load_scene(scene_name)
                 scene = scene.replace(servo=scene.servo.replace(solver=solver))
-                experiment = pn.Experiment(scene, STROKES, plant, pn.Hand(tremor_rms=0.0))
+                experiment = Experiment(scene, STROKES, plant, Hand(tremor_rms=0.0))
                 model, held, path = work(experiment.run(experiment.duration + 1))
                 out.append(
                     {

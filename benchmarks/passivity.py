@@ -20,9 +20,10 @@ import numpy as np
 import punctura as pn
 from punctura._core import ForceLimits, force_scale, largest_force, needed_damping
 from punctura.live import stroke_ends
+from punctura.simulation import Experiment, Hand, Plant, RecordedMotion
 
 SCENES = ("k06-fig10", "k06-fig12", "venipuncture", "epidural")
-STEP = pn.Plant().encoder_step
+STEP = Plant().encoder_step
 FILTERS = {
     "none": {"conditioning": "low_pass", "low_pass": 0.0},
     "low_pass": {"conditioning": "low_pass"},
@@ -62,12 +63,12 @@ class Case:
         """The tip's, m/s rms, in the last two halves of a second. damping (N s/m), friction (N): of the device."""
         scene, inwards = self.scene, np.array(self.scene.membranes[0].inward_normal)
         start, end = (np.array(p) for p in stroke_ends(scene))
-        weaker = 1 / grip.stiffness - 1 / pn.Hand().stiffness  # than the hand of stroke_ends, m/N
+        weaker = 1 / grip.stiffness - 1 / Hand().stiffness  # than the hand of stroke_ends, m/N
         end += (weaker * self.scale * largest_force(scene) + friction / grip.stiffness) * inwards
-        hand = pn.Hand(mass=0.0, damping=damping, stiffness=grip.stiffness, tremor_rms=0.0)
-        motion = pn.RecordedMotion([0, 0.3, 1.5, 3.5], [start, start, end, end])
-        plant = pn.Plant(mass=grip.mass, friction=friction, encoder_step=step, max_force=1e3)
-        ticks = pn.Experiment(scene, motion, plant, hand, axis=inwards).run(3.5)
+        hand = Hand(mass=0.0, damping=damping, stiffness=grip.stiffness, tremor_rms=0.0)
+        motion = RecordedMotion([0, 0.3, 1.5, 3.5], [start, start, end, end])
+        plant = Plant(mass=grip.mass, friction=friction, encoder_step=step, max_force=1e3)
+        ticks = Experiment(scene, motion, plant, hand, axis=inwards).run(3.5)
         if not (ticks.depth[-1] > 0).all():
             raise SystemExit(f"{scene.name}: {grip} did not push the needle through all membranes")
         moved = np.linalg.norm(np.diff(ticks.true_position, axis=0), axis=1) * scene.servo.rate
@@ -88,7 +89,7 @@ class Case:
 
     def fastest(self, share: float, friction: float = 0.0, step: float = 0.0) -> float:
         """The greatest speed of a device as heavy as an Omni in any grip, m/s, with this share of the bound."""
-        heavy = [grip for grip in self.grips() if grip.mass >= pn.Plant().mass]
+        heavy = [grip for grip in self.grips() if grip.mass >= Plant().mass]
         return max(self.speeds(share * self.bound, grip, friction, step)[1] for grip in heavy)
 
 

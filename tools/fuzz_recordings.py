@@ -21,9 +21,10 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
-from punctura import Strokes, load_scene
+from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, export, open_recording, replay, replay_device
+from punctura.simulation import Strokes
 from punctura.studio.recorded import overview
 from punctura.studio.shelf import entry_of
 from spoil_recording import description_of, rewrite, spoil_description

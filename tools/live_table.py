@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import punctura as pn
 from numpy.typing import NDArray
+from punctura.simulation import Experiment, Strokes
 
 RATE = 1600.0
 PERIOD = 1 / RATE
@@ -61,9 +62,9 @@ def robot(scene: pn.Scene, rng: np.random.Generator, speed: float) -> tuple[Arra
 def hand(scene: pn.Scene, rng: np.random.Generator, speed: float) -> tuple[Array, Array]:
     """Two strokes of a simulated hand with tremor at a simulated Omni."""
     reach = pn.ThickLaw(scene.needle, scene.membranes[0].membrane).X + scene.membranes[0].membrane.thickness + 4e-3
-    strokes = pn.Strokes((0, 3e-3, 0), (0, -reach, 0), 2, (reach + 3e-3) / speed, 0.6, 0.1)
+    strokes = Strokes((0, 3e-3, 0), (0, -reach, 0), 2, (reach + 3e-3) / speed, 0.6, 0.1)
     seed = int(rng.integers(1 << 30))
-    ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
+    ticks = Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
     return -ticks.tip[:, 1], ticks.model_force[:, 1]
 
 

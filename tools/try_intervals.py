@@ -41,6 +41,7 @@ from punctura.identify.plan import information
 from punctura.identify.slow_noise import Mixture
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95
+from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
 from scipy.signal import lfilter
 
@@ -124,8 +125,8 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
         scene = pn.Scene(
             "random", needle, pn.Coupling(truth["coupling_stiffness"], 0.01), walls, servo=pn.ServoSettings(low_pass=0)
         )
-        strokes = pn.Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
-        ticks = pn.Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
+        strokes = Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
+        ticks = Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
         time, depth, force = ticks.time, AIR - np.asarray(ticks.position[:, 1]), np.asarray(ticks.force[:, 1])
     force, time, depth = through_sensor(force, given)[every], time[every], depth[every]
     if given.inward:

@@ -24,9 +24,10 @@ import numpy as np
 import punctura as pn
 from punctura.live import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, export, open_recording
+from punctura.simulation import Strokes
 from punctura.studio.wire import decode_ticks, encode_ticks
 
-device = SimulatedDevice(pn.Strokes((0, 5e-3, 0), (0, -0.02, 0)), real_time=False, ticks=800)
+device = SimulatedDevice(Strokes((0, 5e-3, 0), (0, -0.02, 0)), real_time=False, ticks=800)
 loop = ServoLoop(device, pn.load_scene("k06-fig10"))
 listener, recorder = loop.listen(), Recorder(loop, "run.parquet")
 loop.start()

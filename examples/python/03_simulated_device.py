@@ -1,6 +1,7 @@
 """The whole tick on a simulated PHANTOM Omni in a simulated hand: input gate, conditioning, model, force limits."""
 
 import punctura as pn
+from punctura.simulation import Experiment, Strokes
 
 scene = pn.Scene(
     "one wall",
@@ -8,7 +9,7 @@ scene = pn.Scene(
     pn.Coupling(400, 1),
     [pn.PlacedMembrane("wall", pn.Membrane(570, 0.41, 0.2, 0.1e-3), [0, 0, 0], [0, -1, 0])],
 )
-experiment = pn.Experiment(scene, pn.Strokes(start=[0, 5e-3, 0], end=[0, -10e-3, 0]), seed=1)
+experiment = Experiment(scene, Strokes(start=[0, 5e-3, 0], end=[0, -10e-3, 0]), seed=1)
 trace = experiment.run(experiment.duration)
 
 if trace.fault_text:

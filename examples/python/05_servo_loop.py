@@ -4,9 +4,10 @@ import time
 
 import punctura as pn
 from punctura.live import ServoLoop, SimulatedDevice
+from punctura.simulation import Strokes
 
 # For hardware use open_device("openhaptics") from punctura.live
-device = SimulatedDevice(pn.Strokes(start=[0, 5e-3, 0], end=[0, -10e-3, 0]), seed=1)
+device = SimulatedDevice(Strokes(start=[0, 5e-3, 0], end=[0, -10e-3, 0]), seed=1)
 loop = ServoLoop(device, pn.load_scene("k06-fig10"))
 loop.start()
 loop.arm()  # the force ramps up over half a second as soon as the tip is outside tissue

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from punctura import Scene, Target, load_scene
+from punctura import Scene, load_scene
 from punctura._core import (
     DeviceInfo,
     FedDevice,
@@ -31,6 +31,7 @@ from punctura._core import (
 from punctura.events import EventFinder
 from punctura.live import fit_conditioning, stroke_ends
 from punctura.scene import scene_names, scene_text
+from punctura.simulation import Target
 from punctura.studio.compare import OtherSolver
 from punctura.studio.estimating import Estimator
 from punctura.studio.laws import law_curves

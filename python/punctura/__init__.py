@@ -13,9 +13,7 @@ from punctura._core import (
     Coupling,
     DeviceError,
     DisplaySettings,
-    Experiment,
     Fault,
-    Hand,
     Insertion,
     Limit,
     LineBatch,
@@ -26,21 +24,17 @@ from punctura._core import (
     Outlet,
     Phase,
     PlacedMembrane,
-    Plant,
     Plunger,
     ProfileLaw,
     Proxy1d,
     Proxy3d,
     PuncturaError,
-    RecordedMotion,
     Scene,
     SceneField,
     ServoSettings,
     ServoState,
-    Strokes,
     Syringe,
     SyringeSettings,
-    Target,
     ThickLaw,
     ThinLaw,
     Tissue,
@@ -58,7 +52,7 @@ from punctura.paths import cmake_dir, include_dir
 if TYPE_CHECKING:
     from punctura.batches import BatchResult, batch, grid
     from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
-    from punctura.simulation import MotionError, SimulationSummary, simulate
+    from punctura.simulation import simulate
     from punctura.ticks import Ticks
 
 __version__ = _version()
@@ -69,37 +63,29 @@ __all__ = [
     "Coupling",
     "DeviceError",
     "DisplaySettings",
-    "Experiment",
     "Fault",
-    "Hand",
     "Insertion",
     "Limit",
     "LineBatch",
     "LiveEstimate",
     "MaxwellBranch",
     "Membrane",
-    "MotionError",
     "Needle",
     "Outlet",
     "Phase",
     "PlacedMembrane",
-    "Plant",
     "Plunger",
     "Problem",
     "ProfileLaw",
     "Proxy1d",
     "Proxy3d",
     "PuncturaError",
-    "RecordedMotion",
     "Scene",
     "SceneField",
     "ServoSettings",
     "ServoState",
-    "SimulationSummary",
-    "Strokes",
     "Syringe",
     "SyringeSettings",
-    "Target",
     "ThickLaw",
     "ThinLaw",
     "Ticks",
@@ -123,7 +109,7 @@ __all__ = [
 _LATE = {
     "punctura.batches": ("BatchResult", "batch", "grid"),
     "punctura.scene": ("load_scene", "save_scene", "scene_json_schema", "scene_names"),
-    "punctura.simulation": ("MotionError", "SimulationSummary", "simulate"),
+    "punctura.simulation": ("simulate",),
     "punctura.ticks": ("Ticks",),
 }
 _MODULE_OF = {name: module for module, names in _LATE.items() for name in names}
@@ -142,11 +128,16 @@ _SUBJECTS = frozenset(
         "record",
         "reproduce",
         "rivals",
+        "simulation",
         "studio",
         "study",
         "trace",
     ]
 )
+# Names of the compiled core that their subject provides, for the message of an AttributeError.
+_ELSEWHERE = {
+    "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),
+}
 
 
 if not TYPE_CHECKING:  # a type checker must not take every name for one of these
@@ -161,7 +152,8 @@ if not TYPE_CHECKING:  # a type checker must not take every name for one of thes
                 return importlib.import_module(f"punctura.{name}")
             except MissingPackageError as error:
                 raise AttributeError(str(error)) from error
-        raise AttributeError(f"module 'punctura' has no attribute {name!r}")
+        there = "".join(f"; it is punctura.{subject}.{name}" for subject in _ELSEWHERE if name in _ELSEWHERE[subject])
+        raise AttributeError(f"module 'punctura' has no attribute {name!r}{there}")
 
     def __dir__() -> list[str]:
         return sorted({*globals(), *__all__, *_SUBJECTS})

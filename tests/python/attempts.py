@@ -10,6 +10,7 @@ import numpy as np
 import punctura as pn
 from punctura import Phase
 from punctura.exercise import Attempt, Exercise, Result, load_exercise
+from punctura.simulation import RecordedMotion
 from runs import Columns, cut, experiment, unit
 
 HERTZ = 60.0  # rate at which a page sends the mouse position
@@ -25,7 +26,7 @@ def motion_of(
     legs: list[tuple[float, float]],
     axis: np.ndarray,
     aside: tuple[float, float, float] = (0.0, 0.0, 0.0),
-) -> pn.RecordedMotion:
+) -> RecordedMotion:
     """A mouse motion along the needle: legs of (seconds, mm from the start), in steps of page frames.
 
     aside: mm, by which the needle moves sideways in the first 0.8 s.
@@ -34,7 +35,7 @@ def motion_of(
     frames = np.arange(0, times[-1], 1 / HERTZ)
     way = np.interp(frames, times, [0.0, *[mm * 1e-3 for _, mm in legs]])
     sideways = np.outer(np.clip(frames / 0.8, 0, 1), np.asarray(aside) * 1e-3)
-    return pn.RecordedMotion(frames, np.asarray(exercise.start_position) + np.outer(way, axis) + sideways)
+    return RecordedMotion(frames, np.asarray(exercise.start_position) + np.outer(way, axis) + sideways)
 
 
 @cache

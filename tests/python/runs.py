@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import punctura as pn
+from punctura.simulation import Experiment
 
 Columns = dict[str, np.ndarray]
 
@@ -33,7 +34,7 @@ def ramp(scene: pn.Scene, *depths: float, speed: float = 5e-3) -> np.ndarray:
 
 def experiment(scene: pn.Scene, motion: Any, duration: float, axis: Any, seed: int = 0) -> Columns:
     """Runs a simulated hand at a simulated device."""
-    trace = pn.Experiment(scene, motion, seed=seed, axis=axis).run(duration)
+    trace = Experiment(scene, motion, seed=seed, axis=axis).run(duration)
     return {
         **of_trace(trace),
         "model_force": trace.model_force,

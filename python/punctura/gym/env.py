@@ -8,7 +8,7 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from punctura import Hand, Plant
+from punctura._core import Hand, Plant
 from punctura.gym.observation import Observations, action_space, observation_space
 from punctura.gym.population import Population
 from punctura.gym.task import Task
@@ -45,7 +45,7 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
         self, task: str | Task, population: Population | None = None, plant: Plant | None = None,
         hand: Hand | None = None, render_mode: None = None,
     ) -> None:  # fmt: skip
-        """population: default is that of the task. plant, hand: default are those of punctura.Experiment."""
+        """population: default is that of the task. plant, hand: default are those of punctura.simulation.Experiment."""
         no_render_mode(render_mode)
         self.task = task_of(task)
         self.trials = Trials(self.task, 1, population, plant, hand, threads=1)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from punctura import Hand, Plant
+from punctura._core import Hand, Plant
 from punctura.gym.env import infos, no_render_mode, task_of
 from punctura.gym.observation import Observations, action_space, observation_space
 from punctura.gym.population import Population

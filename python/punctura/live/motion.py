@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from punctura import Scene, Strokes
-from punctura._core import stroke_ends
+from punctura import Scene
+from punctura._core import Strokes, stroke_ends
 
 __all__ = ["stroke_ends", "strokes_through"]
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from punctura import Plant
-from punctura._core import ServoLoop, needed_damping
+from punctura._core import Plant, ServoLoop, needed_damping
 from punctura.device_words import room_note
 
 

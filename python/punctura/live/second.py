@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from punctura import Scene, Strokes
-from punctura._core import Device, DeviceError, ReplayDevice, SimulatedDevice, ThumbLoop
+from punctura import Scene
+from punctura._core import Device, DeviceError, ReplayDevice, SimulatedDevice, Strokes, ThumbLoop
 from punctura.live.choose import ANY_PROCESSOR, open_for
 from punctura.live.limits import Limits
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from punctura import Experiment, Hand, Phase, Plant, Strokes, ThickLaw, Ticks
+from punctura import Phase, ThickLaw, Ticks
+from punctura._core import Experiment, Hand, Plant, Strokes
 from punctura.reproduce import palette, stages
 from punctura.reproduce.drawing import Drawing
 from punctura.reproduce.force_position import draw_by_stage

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura import Experiment, Hand, Insertion, Plant, Scene, Strokes, Ticks
+from punctura import Insertion, Scene, Ticks
+from punctura._core import Experiment, Hand, Plant, Strokes
 from punctura.reproduce.scenes import INWARD
 
 SEED = 209  # with this seed three strokes pop through, and one turns before the pop

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from punctura import Hand, Plant
+from punctura._core import Hand, Plant
 from punctura.reproduce.operator import COUNT, DURATION_S, REST_S, SEED, START_MM, STROKE_DEPTH_MM, VARIATION
 from punctura.reproduce.scenes import k06_scene
 

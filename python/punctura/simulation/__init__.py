@@ -1,7 +1,22 @@
-"""Computes the model's force for a given motion, from file to file or in memory (docs/simulate.md)."""
+"""Runs without a device: the force along a given motion (docs/simulate.md), or with a simulated hand and device.
 
+simulate() computes along a file or an array; an Experiment simulates the hand and the device (docs/plant.md).
+"""
+
+from punctura._core import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
 from punctura.simulation.motion_error import MotionError
 from punctura.simulation.run import simulate
 from punctura.simulation.summary import MembraneSummary, SimulationSummary
 
-__all__ = ["MembraneSummary", "MotionError", "SimulationSummary", "simulate"]
+__all__ = [
+    "Experiment",
+    "Hand",
+    "MembraneSummary",
+    "MotionError",
+    "Plant",
+    "RecordedMotion",
+    "SimulationSummary",
+    "Strokes",
+    "Target",
+    "simulate",
+]

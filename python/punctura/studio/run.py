@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from punctura import Scene, Target
-from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice, ThumbLoop
+from punctura import Scene
+from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice, Target, ThumbLoop
 from punctura.live import ANY_PROCESSOR, Limits, SecondDevice, fit_conditioning, fit_direction, open_for, run_notes
 from punctura.record import Recorder
 from punctura.results import JsonObject

@@ -6,20 +6,11 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from numpy.typing import NDArray
-from punctura import (
-    ConfigurationError,
-    Hand,
-    Insertion,
-    Plant,
-    RecordedMotion,
-    Strokes,
-    batch,
-    grid,
-    load_scene,
-)
+from punctura import ConfigurationError, Insertion, batch, grid, load_scene
 from punctura._core import simd_instructions
 from punctura.compare.run import Run
 from punctura.compare.statistics import statistics
+from punctura.simulation import Hand, Plant, RecordedMotion, Strokes
 
 SCENE = load_scene("k06-fig12")
 NORMAL = np.array(SCENE.membranes[0].inward_normal)

@@ -21,6 +21,7 @@ from punctura.events import crossing
 from punctura.live import stroke_ends
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.scene import scene_text
+from punctura.simulation import Strokes
 from recorded import recorded
 
 VALUES = [500.0, 1000.0, 1500.0]
@@ -149,7 +150,7 @@ def test_a_variation_that_would_take_too_long_is_refused(scene):
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory, scene):
     start, end = stroke_ends(scene)
-    device = SimulatedDevice(pn.Strokes(start, end, count=1, duration=1.5), real_time=False, ticks=5000)
+    device = SimulatedDevice(Strokes(start, end, count=1, duration=1.5), real_time=False, ticks=5000)
     return recorded(tmp_path_factory.mktemp("compare") / "run one.parquet", device, scene, 5000)
 
 

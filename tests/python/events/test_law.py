@@ -6,6 +6,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.events import EventFinder, crossing
+from punctura.simulation import Experiment, Strokes
 from runs import along, ramp, unit
 
 # Tolerance of the peak: a tick of 3 um misses it by at most this much.
@@ -69,8 +70,8 @@ def test_a_hands_pop_drops_as_the_law_says_within_2_percent(name):
     """Through the simulated device, its encoders, the tremor and the filter."""
     scene = pn.load_scene(name)
     normal = unit(scene.membranes[0].inward_normal)
-    strokes = pn.Strokes(-5e-3 * normal, 25e-3 * normal, count=1, duration=3.0, variation=0.0)
-    trace = pn.Experiment(scene, strokes, seed=4).run(5)
+    strokes = Strokes(-5e-3 * normal, 25e-3 * normal, count=1, duration=3.0, variation=0.0)
+    trace = Experiment(scene, strokes, seed=4).run(5)
     columns = {k: getattr(trace, k) for k in ("time", "depth", "axial_force", "lower", "phase")}
     pops = [event for event in EventFinder(scene).add(columns) if event.what == "pop"]
     assert len(pops) == len(scene.membranes)

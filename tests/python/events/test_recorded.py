@@ -7,9 +7,10 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.events import EventFinder, find_events
 from punctura.record import Recorder, open_recording
 from punctura.record.columns import ticks_of
+from punctura.simulation import Strokes
 from waiting import wait_until
 
-STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
+STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)
 
 
 def record(path, scene, ticks, exchange=None):

@@ -9,6 +9,7 @@ from attempts import HEAD, goal, ideal, judged, of_positions
 from punctura._core import Limit
 from punctura.exercise import load_exercise
 from punctura.exercise.quantities import tenths
+from punctura.simulation import Hand
 
 SCENE = pn.load_scene("venipuncture")  # the skin at 0, 1.2 mm thick; walls at -4.81 and -8.22, 0.4 mm thick
 TIP = 0.8e-3 / math.tan(math.radians(11))  # m
@@ -108,7 +109,7 @@ def test_a_hand_that_trembles_goes_no_longer_way(write):
     tremor = sum(
         2.4e-5 * np.sin(2 * np.pi * hertz * t[:, None] + phase) for hertz, phase in zip((8, 9, 11), phases, strict=True)
     )
-    assert tremor.std() == pytest.approx(pn.Hand().tremor_rms, rel=0.05)
+    assert tremor.std() == pytest.approx(Hand().tremor_rms, rel=0.05)
     m = measured(write, of_positions(SCENE, columns["tip"] + tremor), NEVER).metrics
     assert m.straightness == pytest.approx(1, abs=0.03)
 

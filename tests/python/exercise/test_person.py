@@ -1,10 +1,10 @@
 """A simulated person with a mouse, who sees, reacts with a delay, and moves the target of the simulated hand."""
 
 import numpy as np
-import punctura as pn
 import pytest
 from attempts import HERTZ, as_a_device_runs_it
 from punctura.exercise import Attempt, load_exercise
+from punctura.simulation import Experiment, Target
 from runs import of_trace, unit
 
 
@@ -20,7 +20,7 @@ class Person:
         exercise = load_exercise(name)
         scene = as_a_device_runs_it(exercise.scene)
         axis, start = np.asarray(exercise.start_axis), np.asarray(exercise.start_position)
-        device = pn.Experiment(scene, pn.Target(start), seed=self.seed, axis=axis)
+        device = Experiment(scene, Target(start), seed=self.seed, axis=axis)
         attempt, way, ticks, seen = Attempt(exercise, scene), 0.0, 0, []
         while ticks < seconds * scene.servo.rate and not attempt.over:
             way += self._speed(seen) / HERTZ
@@ -65,7 +65,7 @@ class ByKeys:
         exercise = load_exercise(name)
         scene = as_a_device_runs_it(exercise.scene)
         axis, target = np.asarray(exercise.start_axis), np.array(exercise.start_position)
-        device = pn.Experiment(scene, pn.Target(target), axis=axis)
+        device = Experiment(scene, Target(target), axis=axis)
         attempt, ticks, self.heard = Attempt(exercise, scene), 0, []
         while ticks < seconds * scene.servo.rate and not attempt.over:
             told = attempt.status.instruction if ticks >= self.blind_s * scene.servo.rate else ""

@@ -10,6 +10,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import Fleet, simd_instructions
+from punctura.simulation import Experiment, Target
 
 SCENE = pn.load_scene("k06-fig10")
 START, AXIS = (0, 3e-3, 0), (0, -1, 0)
@@ -43,7 +44,7 @@ def test_the_results_do_not_depend_on_other_trials_threads_or_the_size_of_a_step
 def test_a_trial_is_an_experiment_of_the_package():
     """A hand that rests: the same motion as that of an Experiment with a target."""
     made = fleet(1).step([0.0], 1600)
-    ticks = pn.Experiment(SCENE, pn.Target(START), axis=AXIS, seed=0).run(1.0)
+    ticks = Experiment(SCENE, Target(START), axis=AXIS, seed=0).run(1.0)
     assert made["travel"][0] == pytest.approx(np.dot(ticks.position[-1] - START, AXIS), abs=1e-12)
 
 

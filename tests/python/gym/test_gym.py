@@ -15,9 +15,10 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from punctura.extras import optional
 from punctura.gym.trials import Trials
+from punctura.simulation import Hand, Plant
 
 NAMES = [f"punctura/{name}-v0" for name in pg.TASKS]
-QUIET = pn.Hand(tremor_rms=0)
+QUIET = Hand(tremor_rms=0)
 
 
 def advance(env: pg.NeedleEnv, share: float, seconds: float) -> list[tuple]:
@@ -96,7 +97,7 @@ def test_the_observation_is_what_the_device_measures_and_nothing_that_a_hand_can
     force, lowest, highest, depth, speed = rows.T
     assert (lowest <= force).all() and (force <= highest).all()
     assert np.allclose(np.diff(depth), speed[1:] * env.task.decision, atol=1e-4)
-    step = pn.Plant().encoder_step * 1e3
+    step = Plant().encoder_step * 1e3
     assert depth[-1] == pytest.approx(0.5 * 20 * 1.0, abs=4 * step + 2)  # the hand gives way
     hidden = pg.NeedleEnv("StopAfterPop", hand=QUIET)  # another tissue, not touched yet
     hidden.reset(seed=1)
@@ -105,7 +106,7 @@ def test_the_observation_is_what_the_device_measures_and_nothing_that_a_hand_can
 
 def test_a_fault_ends_the_trial_and_is_in_the_result_of_its_own_trial_only():
     task = replace(pg.TASKS["StopAfterPop"], fastest=1000.0)
-    env = pg.NeedleVectorEnv(task, 2, hand=pn.Hand(stiffness=1e6, mass=0.01, tremor_rms=0), threads=2)
+    env = pg.NeedleVectorEnv(task, 2, hand=Hand(stiffness=1e6, mass=0.01, tremor_rms=0), threads=2)
     env.reset(seed=1)
     for _ in range(5):
         _, reward, ended, _, info = env.step(np.array([[-1], [0]], np.float32))

@@ -198,10 +198,11 @@ gone = threading.Event()
 atexit.register(lambda: print("stopped" if gone.wait(20) else "runs on", flush=True))  # called last
 import punctura as pn
 from punctura.live import ServoLoop, SimulatedDevice
+from punctura.simulation import Target
 
 held = threading.Event()
 def hold():
-    loop = ServoLoop(SimulatedDevice(pn.Target([0, 5e-3, 0])), pn.load_scene("k06-fig10"))
+    loop = ServoLoop(SimulatedDevice(Target([0, 5e-3, 0])), pn.load_scene("k06-fig10"))
     loop.start()
     held.set()
     while loop.running:

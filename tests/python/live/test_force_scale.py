@@ -9,12 +9,13 @@ from punctura.cli._headless import begun, in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, SimulatedDevice, felt_force
 from punctura.record import Recorder, export, open_recording, replay, replay_device
+from punctura.simulation import Strokes
 from punctura.studio.recorded import tick_frames
 from recorded import recorded, run_to_end
 from waiting import wait_until
 
 TICKS = 4800
-STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=2, duration=0.8, rest=0.6)
+STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=2, duration=0.8, rest=0.6)
 
 
 def scaled(force_scale):

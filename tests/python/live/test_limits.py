@@ -10,6 +10,7 @@ import pytest
 from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.live import Limits, load_limits, run_live
 from punctura.live.summary import strongest
+from punctura.simulation import Strokes, Target
 
 ALL = """
 max_force_N = 0.5
@@ -51,7 +52,7 @@ def test_the_example_in_the_docs_is_a_limits_file(tmp_path):
 
 
 def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
-    simulated = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    simulated = SimulatedDevice(Target([0, 5e-3, 0]))
     limits = limits_of(tmp_path, "max_speed_m_per_s = 3.2")
     assert limits.force == ForceLimits()
     assert limits.gate_on(simulated) == GateLimits(max_speed=3.2, stale=1.0, deadline=1.0)
@@ -100,7 +101,7 @@ def test_a_dead_man_button_that_the_device_does_not_have_is_refused(tmp_path):
         (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: it can never be held"),
         (with_buttons(0), "a stylus has no buttons"),
         (with_buttons(1), r"dead_man_buttons = \[3\]: a stylus has 1 button:"),
-        (SimulatedDevice(pn.Target([0, 5e-3, 0])), "PHANTOM Omni, simulated has 1 button:"),
+        (SimulatedDevice(Target([0, 5e-3, 0])), "PHANTOM Omni, simulated has 1 button:"),
     ):
         with pytest.raises(pn.ConfigurationError, match=words):
             limits.gate_on(device)
@@ -134,7 +135,7 @@ def test_the_command_line_bounds_the_force(punctura, tmp_path):
 
 def test_a_force_above_the_devices_rating_is_told_with_both_numbers(tmp_path):
     limits = limits_of(tmp_path, "max_force_N = 5\ncontinuous_force_N = 2.5")
-    weak = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    weak = SimulatedDevice(Target([0, 5e-3, 0]))
     loop = ServoLoop(weak, SCENE, limits.gate_on(weak), limits.force)
     assert loop.limits.max_force == 3.3
     assert limits.notes(loop) == [
@@ -154,7 +155,7 @@ def test_a_force_that_was_not_chosen_or_is_within_the_rating_is_not_told():
 def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path):
     with pytest.raises(pn.ConfigurationError, match="at most 60 s"):
         limits_of(tmp_path, "continuous_time_s = 1e6")
-    weak = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    weak = SimulatedDevice(Target([0, 5e-3, 0]))
     longer = limits_of(tmp_path, "continuous_time_s = 30")
     loop = ServoLoop(weak, SCENE, longer.gate_on(weak), longer.force)
     assert any("continuous_time_s = 30 lets strong forces last longer" in note for note in longer.notes(loop))
@@ -167,7 +168,7 @@ def test_a_longer_deadline_than_the_budget_has_room_for_is_told(tmp_path):
     mine = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
     told = [limits.notes(ServoLoop(mine, SCENE, limits.gate_on(mine), limits.force)) for limits in (longer, usual)]
     assert ["deadline_ms = 50 lets the device hold" in note for note in told[0]] == [True] and told[1] == []
-    simulated = SimulatedDevice(pn.Target([0, 5e-3, 0]))
+    simulated = SimulatedDevice(Target([0, 5e-3, 0]))
     loop = ServoLoop(simulated, SCENE, longer.gate_on(simulated), longer.force)
     assert longer.notes(loop) == [] and longer.notes(loop, ThumbLoop(mine)) == told[0]
 
@@ -227,7 +228,7 @@ def test_the_strongest_force_is_the_ceiling_where_only_rounding_exceeds_it_and_e
 
 def test_a_run_keeps_to_a_file_of_limits(tmp_path):
     limits = limits_of(tmp_path, "max_force_N = 0.5")
-    strokes = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+    strokes = Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
     device = SimulatedDevice(strokes, real_time=False, ticks=4000)
     summary = run_live(device, SCENE, gate=limits.gate_on(device), limits=limits.force)
     assert summary.felt_peak_N == pytest.approx(0.5, rel=1e-9)

@@ -14,10 +14,11 @@ from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedD
 from punctura.cli._headless import in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
+from punctura.simulation import Experiment, Strokes
 from waiting import PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("k06-fig10")
-STROKES = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+STROKES = Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
 
 
 def simulated(ticks=4000, **kw):
@@ -40,7 +41,7 @@ def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
     wait_until(lambda: loop.device.finished)
     loop.stop()
     live = listener.read()
-    offline = pn.Experiment(SCENE, STROKES, seed=3).run(2.5)
+    offline = Experiment(SCENE, STROKES, seed=3).run(2.5)
     assert listener.lost == 0
     assert np.array_equal(live["tick"], np.arange(4000))
     assert np.array_equal(live["force"], offline.force)

@@ -6,6 +6,7 @@ import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice, run_live
 from punctura.process.signals import Signals, ends_on_signals
+from punctura.simulation import Target
 
 SCENE = pn.load_scene("k06-fig10")
 
@@ -35,7 +36,7 @@ def test_a_run_goes_on_to_its_end_when_the_caller_takes_a_signal_for_itself(call
         signal.raise_signal(signal.SIGTERM)
         return lambda: ended.append("finished")
 
-    run_live(SimulatedDevice(pn.Target([0, 5e-3, 0])), SCENE, 0.2, prepare=prepare)
+    run_live(SimulatedDevice(Target([0, 5e-3, 0])), SCENE, 0.2, prepare=prepare)
     assert calls == [signal.SIGTERM] and ended == ["finished"]
 
 

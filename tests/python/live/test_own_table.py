@@ -5,12 +5,13 @@ import punctura as pn
 from punctura.live import SimulatedDevice
 from punctura.record import open_recording, replay
 from punctura.scene.write import scene_text
+from punctura.simulation import Strokes
 from recorded import recorded
 
 DEPTH = np.linspace(0, 6e-3, 32)  # m
 RESISTS = 0.9 * np.sin(DEPTH / 6e-3 * 2.5) ** 2  # N, while the needle goes in
 HOLDS = 0.1 + 20 * DEPTH  # N, while it comes out
-STROKES = pn.Strokes((0, 5e-3, 0), (0, -8e-3, 0), count=2, duration=0.5, rest=0.3)
+STROKES = Strokes((0, 5e-3, 0), (0, -8e-3, 0), count=2, duration=0.5, rest=0.3)
 TICKS = 4000
 
 

@@ -9,6 +9,7 @@ import pytest
 from punctura._core import DeviceError, Placement, SimulatedDevice
 from punctura.live import load_placement, placement_from_pose, placement_text, present_pose, run_live
 from punctura.live.placement import rotate, shortest_turn
+from punctura.simulation import Strokes
 
 
 def to_scene(p, position, axis):
@@ -69,7 +70,7 @@ def test_all_that_is_wrong_with_a_file_is_told_at_once(tmp_path):
 
 def test_a_run_with_a_placement_meets_the_membrane_where_the_placement_puts_it():
     scene = pn.load_scene("k06-fig10")
-    strokes = pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
+    strokes = Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
 
     def deepest(placement):
         device = SimulatedDevice(strokes, real_time=False, ticks=4000)

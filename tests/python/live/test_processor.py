@@ -7,6 +7,7 @@ import punctura as pn
 import pytest
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.live import open_device, open_for
+from punctura.simulation import Target
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")
@@ -21,7 +22,7 @@ def processors_of_threads():
 @pytest.mark.parametrize("how", ["made", "opened", "chosen"])
 def test_the_thread_that_ticks_stays_on_its_processor(how):
     device = {
-        "made": lambda: SimulatedDevice(pn.Target([0, 5e-3, 0]), processor=LAST),
+        "made": lambda: SimulatedDevice(Target([0, 5e-3, 0]), processor=LAST),
         "opened": lambda: open_device("simulated", processor=LAST),
         "chosen": lambda: open_for(SCENE, "simulated", LAST),
     }[how]()
@@ -38,7 +39,7 @@ def test_the_thread_that_ticks_stays_on_its_processor(how):
 
 
 def test_one_that_does_not_exist_does_no_harm_and_is_said():
-    device = SimulatedDevice(pn.Target([0, 5e-3, 0]), ticks=16, processor=4095)
+    device = SimulatedDevice(Target([0, 5e-3, 0]), ticks=16, processor=4095)
     loop = ServoLoop(device, SCENE)
     loop.start()
     wait_until(lambda: device.finished)

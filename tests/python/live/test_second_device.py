@@ -27,6 +27,7 @@ from punctura.live import (
 )
 from punctura.live.session import Watched
 from punctura.record import open_recording, replay
+from punctura.simulation import Target
 from punctura.studio.loaded import from_name
 from punctura.studio.pump import Pump
 from punctura.studio.run import NO_SYRINGE, Bench, Run, Settings
@@ -194,7 +195,7 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     ],
 )
 def test_a_second_device_that_cannot_be_used_is_refused(scene, second, reason):
-    needle = SimulatedDevice(pn.Target(ABOVE))
+    needle = SimulatedDevice(Target(ABOVE))
     with pytest.raises(SecondDeviceError) as error:
         SecondDevice(second).open(pn.load_scene(scene), needle)
     assert reason in str(error.value) and isinstance(error.value, DeviceError)

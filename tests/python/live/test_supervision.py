@@ -15,6 +15,7 @@ from heed import heed_signals
 from punctura.live import DeviceInfo, FedDevice, SimulatedDevice, run_live
 from punctura.process.signals import Ended
 from punctura.record import open_recording
+from punctura.simulation import Target
 from terminals import BLOCKED, stop, terminal, unread_pipe
 from waiting import PATIENCE_S
 
@@ -96,7 +97,7 @@ def test_ticks_that_cease_end_a_run_also_in_another_thread():
 
 @pytest.mark.skipif(os.name == "nt", reason="needs usleep of the C library")
 def test_a_watch_that_holds_the_gil_does_not_hold_up_the_end():
-    device = SimulatedDevice(pn.Target((0, 5e-3, 0)), rate=1000)
+    device = SimulatedDevice(Target((0, 5e-3, 0)), rate=1000)
     hold, held, times = ctypes.PyDLL(None).usleep, [], []
 
     def prepare(loop):
@@ -211,7 +212,7 @@ class Interrupts:
 
 def interrupted_run(n):
     """A short run with a signal before the n-th line. Returns the result, and whether n lines were executed."""
-    device = SimulatedDevice(pn.Target([0, 5e-3, 0]), real_time=False, ticks=20)
+    device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=20)
     happened, loops = [], []
 
     def prepare(loop):

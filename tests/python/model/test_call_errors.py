@@ -4,6 +4,7 @@ import numpy as np
 import punctura as pn
 import punctura._core as core
 import pytest
+from punctura.simulation import Experiment, Hand, RecordedMotion, Strokes, Target
 
 SCENE = pn.load_scene("k06-fig10")
 MEMBRANE = SCENE.membranes[0].membrane
@@ -32,10 +33,10 @@ FRICTION = "membrane[0].friction"
         (lambda: LINE.run([0], True), "takes 1 argument by place, not 2; name the others: progress."),
         (lambda: LINE.run([0], p=[0]), "p is given twice."),
         (lambda: pn.Insertion(scen=SCENE), "Insertion(): there is no argument scen; did you mean scene?"),
-        (lambda: pn.Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
-        (lambda: pn.Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
+        (lambda: Hand(stifness=300), "Hand(): there is no argument stifness; did you mean stiffness? It takes ("),
+        (lambda: Experiment(SCENE, 3), "motion must be a Strokes or a RecordedMotion or a Target, not int."),
         (
-            lambda: pn.Experiment(SCENE, pn.Strokes(DOWN, DOWN), axis=(0, 1)),
+            lambda: Experiment(SCENE, Strokes(DOWN, DOWN), axis=(0, 1)),
             "axis must be three numbers or None, not tuple",
         ),
         (lambda: core.Rival("dahl", {"friction": "1 N"}), "dahl.friction must be a number"),
@@ -168,7 +169,7 @@ def test_a_huge_number_is_shown_short():
 
 
 def test_a_run_without_end_is_refused():
-    made = pn.Experiment(SCENE, pn.Target((0, 5e-3, 0)))
+    made = Experiment(SCENE, Target((0, 5e-3, 0)))
     with pytest.raises(ValueError, match="duration must be from 0 to 1e9 s"):
         made.run(1e18)
     with pytest.raises(MemoryError, match=r"the columns of \d+ ticks need .* GB of memory, .* Make the run in parts"):
@@ -201,9 +202,9 @@ def test_an_argument_of_another_type_is_told_in_a_sentence(call, says):
 
 
 def test_a_target_takes_only_finite_places():
-    target = pn.Target((0, 0, 0))
-    experiment = pn.Experiment(SCENE, target)
-    for move in (pn.Target, target.move_to, experiment.move_to):
+    target = Target((0, 0, 0))
+    experiment = Experiment(SCENE, target)
+    for move in (Target, target.move_to, experiment.move_to):
         for place in ((0, float("nan"), 0), (0, 0, 2e6)):
             with pytest.raises(ValueError, match="must be three finite numbers, m, within 1000 km"):
                 move(place)
@@ -216,7 +217,7 @@ def test_a_recorded_motion_takes_only_finite_places_and_ascending_times():
         ([0, np.nan], 0.0, "sample 1: time must be finite and ascend"),
     ):
         with pytest.raises(ValueError, match=says):
-            pn.RecordedMotion(time, [(0, 0, 0), (0, y, 0)])
+            RecordedMotion(time, [(0, 0, 0), (0, y, 0)])
 
 
 def test_a_number_that_no_float_holds_is_told_with_its_path():
@@ -228,4 +229,4 @@ def test_a_number_that_no_float_holds_is_told_with_its_path():
 def test_strokes_name_the_number_that_is_no_place():
     for number in (float("nan"), 2e6):
         with pytest.raises(pn.ConfigurationError, match=r"strokes.end\[1\] = .*: must be finite and within 1000 km"):
-            pn.Strokes((0, 0, 0), (0, number, 0))
+            Strokes((0, 0, 0), (0, number, 0))

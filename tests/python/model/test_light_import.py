@@ -1,6 +1,7 @@
 """`import punctura` gives the physics and loads no other package than NumPy; the rest comes when it is used."""
 
 import ast
+import importlib
 import json
 import subprocess
 import sys
@@ -51,6 +52,15 @@ def test_a_name_that_does_not_exist_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="module 'punctura' has no attribute 'neddle'"):
         _ = punctura.neddle  # type: ignore[attr-defined]
     assert not hasattr(punctura, "restores")
+
+
+@pytest.mark.parametrize("subject", sorted(punctura._ELSEWHERE))
+def test_a_name_of_a_subject_is_found_by_the_message(subject: str) -> None:
+    module = importlib.import_module(f"punctura.{subject}")
+    for name in punctura._ELSEWHERE[subject]:
+        assert name in module.__all__
+        with pytest.raises(AttributeError, match=rf"no attribute '{name}'; it is punctura\.{subject}\.{name}$"):
+            getattr(punctura, name)
 
 
 def test_a_subject_without_its_package_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

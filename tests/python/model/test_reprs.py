@@ -13,6 +13,7 @@ from punctura.events import EventFinder
 from punctura.exercise import Attempt, ResultStore, load_exercise
 from punctura.live import DroppingStream, FedDevice, Pacer, ReplayDevice, ServoLoop, SimulatedDevice
 from punctura.record import Recorder, open_recording
+from punctura.simulation import Experiment, RecordedMotion, Strokes, Target
 
 SCENE = punctura.load_scene("k06-fig10")
 WALL = SCENE.membranes[0].membrane
@@ -30,7 +31,7 @@ def test_no_exported_class_has_the_default_repr():
 
 @pytest.fixture
 def loop():
-    device = SimulatedDevice(punctura.Target([0, 0.01, 0]), real_time=False, ticks=100)
+    device = SimulatedDevice(Target([0, 0.01, 0]), real_time=False, ticks=100)
     with ServoLoop(device, SCENE) as loop:
         yield loop
 
@@ -48,13 +49,13 @@ MADE = [
         punctura.Insertion(SCENE),
         f"<Insertion in {SCENE.name!r}: tip [0.0, 0.0, 0.0] m, force [0.0, 0.0, 0.0] N>",
     ),
-    (punctura.Experiment(SCENE, punctura.Target([0, 0, 0])), f"<Experiment in {SCENE.name!r}: 0 ticks>"),
+    (Experiment(SCENE, Target([0, 0, 0])), f"<Experiment in {SCENE.name!r}: 0 ticks>"),
     (
-        punctura.Strokes([0, 0, 0], (0, -0.01, 0)),
+        Strokes([0, 0, 0], (0, -0.01, 0)),
         "Strokes(start=(0.0, 0.0, 0.0), end=(0.0, -0.01, 0.0), count=3, duration=1.5, rest=0.6, variation=0.1)",
     ),
-    (punctura.RecordedMotion([0, 0.5], np.zeros((2, 3))), "<RecordedMotion of 0.5 s>"),
-    (punctura.Target([0, 0.01, 0]), "<Target at [0.0, 0.01, 0.0] m>"),
+    (RecordedMotion([0, 0.5], np.zeros((2, 3))), "<RecordedMotion of 0.5 s>"),
+    (Target([0, 0.01, 0]), "<Target at [0.0, 0.01, 0.0] m>"),
     (FedDevice(500), "<FedDevice '' at 500 Hz>"),
     (ReplayDevice(np.zeros((4, 3)), AXIS, 1000), "<ReplayDevice 'a recorded motion' at 1000 Hz>"),
     (Pacer(500), "<Pacer at 500 Hz>"),

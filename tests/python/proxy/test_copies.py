@@ -12,6 +12,7 @@ import punctura as pn
 import pytest
 from exported import exported
 from punctura.rivals import Rival, RivalInsertion
+from punctura.simulation import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
 
 T = 1 / 1600
 NEEDLE, MEMBRANE, COUPLING = pn.Needle(1.08e-3, 0.28), pn.Membrane(570, 0.41, 0.2, 1e-3), pn.Coupling(400, 1)
@@ -23,7 +24,7 @@ TIME = np.arange(4000) * T
 DEPTH = 3e-3 - 5e-3 * np.cos(2 * np.pi * 0.8 * TIME) + 1e-4 * np.sin(40 * TIME)
 DOWN = np.array([0.0, -1.0, 0.0])
 START, END = [0, 5e-3, 0], [0, -10e-3, 0]
-RECORDED = pn.RecordedMotion(TIME[::100], np.outer(DEPTH[::100], DOWN))
+RECORDED = RecordedMotion(TIME[::100], np.outer(DEPTH[::100], DOWN))
 
 Part = Callable[[Any, slice], Any]
 
@@ -70,13 +71,13 @@ MADE: dict[str, tuple[Callable[[], Any], Part]] = {
     "RivalInsertion": (lambda: RivalInsertion(SCENE, [Rival("dahl")]), space),
     "LiveEstimate": (lambda: pn.LiveEstimate(noise=6e-3, least_drop=0.05), estimate),
     "Plunger": (lambda: pn.Plunger(pn.Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), pn.Coupling(2000, 2), T), plunger),
-    "Target": (lambda: pn.Target(END), moved),
+    "Target": (lambda: Target(END), moved),
     "Experiment, strokes": (
-        lambda: pn.Experiment(SCENE, pn.Strokes(START, END), hand=pn.Hand(tremor_rms=1e-4), seed=3),
+        lambda: Experiment(SCENE, Strokes(START, END), hand=Hand(tremor_rms=1e-4), seed=3),
         operator,
     ),
-    "Experiment, recorded": (lambda: pn.Experiment(SCENE, RECORDED, pn.Plant(mass=0.03)), operator),
-    "Experiment, target": (lambda: pn.Experiment(SCENE, pn.Target(END), axis=[0.1, -1, 0], seed=9), operator),
+    "Experiment, recorded": (lambda: Experiment(SCENE, RECORDED, Plant(mass=0.03)), operator),
+    "Experiment, target": (lambda: Experiment(SCENE, Target(END), axis=[0.1, -1, 0], seed=9), operator),
 }
 
 

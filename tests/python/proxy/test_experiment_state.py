@@ -5,7 +5,8 @@ import pickle
 
 import numpy as np
 import pytest
-from punctura import Experiment, Hand, Plant, RecordedMotion, Strokes, Target, load_scene
+from punctura import load_scene
+from punctura.simulation import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
 
 SCENE = load_scene("k06-fig12")
 START, END = [0, 5e-3, 0], [0, -10e-3, 0]

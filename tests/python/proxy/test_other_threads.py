@@ -7,11 +7,12 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.live import FedDevice
+from punctura.simulation import Experiment, Target
 from waiting import PATIENCE_S
 
 SCENE = pn.load_scene("k06-fig12")
 NEEDLE, MEMBRANE = SCENE.needle, SCENE.membranes[0].membrane
-TARGET = pn.Target((0, 0, 0))
+TARGET = Target((0, 0, 0))
 
 
 def insertion():
@@ -30,7 +31,7 @@ def space():
 
 
 def experiment():
-    made = pn.Experiment(SCENE, TARGET)
+    made = Experiment(SCENE, TARGET)
     return made, lambda progress: made.run(0.05, progress=progress)
 
 

@@ -6,20 +6,9 @@ import threading
 
 import numpy as np
 import pytest
-from punctura import (
-    Coupling,
-    Experiment,
-    Insertion,
-    Membrane,
-    Needle,
-    Proxy1d,
-    Proxy3d,
-    Target,
-    ThickLaw,
-    load_scene,
-    simulate,
-)
+from punctura import Coupling, Insertion, Membrane, Needle, Proxy1d, Proxy3d, ThickLaw, load_scene, simulate
 from punctura import progress as shown
+from punctura.simulation import Experiment, Target
 
 NEEDLE, MEMBRANE, COUPLING = Needle(1.08e-3, 0.28), Membrane(570, 0.41, 0.2, 1e-3), Coupling(400, 1)
 SCENE, DOWN = load_scene("k06-fig12"), [0.0, -1.0, 0.0]

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from punctura import Scene, Strokes, load_scene
+from punctura import Scene, load_scene
 from punctura._core import ForceLimits, GateLimits, Listener, ServoLoop, SimulatedDevice
 from punctura.record import Recorder
+from punctura.simulation import Strokes
 from waiting import wait_until
 
 STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=100, duration=0.3, rest=0.1)

@@ -147,9 +147,10 @@ def test_a_parquet_file_that_cannot_be_written_leaves_the_recording_where_it_is(
 
 LIMITED = """
 import resource, sys, time
-from punctura import Strokes, load_scene
+from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder
+from punctura.simulation import Strokes
 resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, 300_000))
 device = SimulatedDevice(Strokes((0, 5e-3, 0), (0, -0.02, 0)), real_time=False, ticks=20_000)
 loop = ServoLoop(device, load_scene("k06-fig12"))

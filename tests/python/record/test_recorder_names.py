@@ -16,9 +16,10 @@ from punctura.record.new_file import in_use
 KILLED = """
 import os, signal, sys
 import punctura.record.new_file as new_file
-from punctura import Strokes, load_scene
+from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder
+from punctura.simulation import Strokes
 
 def killed(*_):
     os.kill(os.getpid(), signal.SIGKILL)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import punctura as pn
 import pytest
-from punctura import Strokes
 from punctura._core import SimulatedDevice
+from punctura.simulation import Strokes
 from punctura.trace import read_trace
 from recorded import recorded
 

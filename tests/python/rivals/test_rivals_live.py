@@ -10,12 +10,13 @@ from punctura.live.run_notes import run_notes
 from punctura.record import Recorder, RecordingError, open_recording, replay
 from punctura.record.header import RecordingInfo
 from punctura.rivals import Layer, Rival, RivalInsertion, save_layers
+from punctura.simulation import Strokes
 from punctura.studio.recorded import overview
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig12")
 WALLS = len(SCENE.membranes)
-STROKES = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=3, duration=0.3, rest=0.3)
+STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=3, duration=0.3, rest=0.3)
 
 
 def felt(path, rivals, scene=SCENE, ticks=4000, between=None):

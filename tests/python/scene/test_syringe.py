@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from punctura import ConfigurationError, Coupling, Outlet, Syringe, SyringeSettings, Target, load_scene, save_scene
+from punctura import ConfigurationError, Coupling, Outlet, Syringe, SyringeSettings, load_scene, save_scene
 from punctura._core import Fault, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.record import Recorder, open_recording, replay
+from punctura.simulation import Target
 from recorded import run_to_end
 from waiting import wait_until
 

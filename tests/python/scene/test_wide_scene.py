@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from punctura import Experiment, Insertion, MaxwellBranch, Strokes, Tissue, load_scene, save_scene
+from punctura import Insertion, MaxwellBranch, Tissue, load_scene, save_scene
 from punctura._core import law_curve
 from punctura.events import crossing, find_events
+from punctura.simulation import Experiment, Strokes
 
 DOWN = [0.0, -1.0, 0.0]
 WIDE = """

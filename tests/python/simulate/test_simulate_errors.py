@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from punctura import ConfigurationError, MotionError, simulate
+from punctura import ConfigurationError, simulate
+from punctura.simulation import MotionError
 
 from .simulate_motions import AXIS_HEADER, HEADER, rows_of, strokes
 

@@ -1,9 +1,10 @@
 """What the studio tells of a running attempt, what it refuses during one, and what it keeps of it."""
 
 from attempts import as_a_device_runs_it, hand_run
-from punctura import RecordedMotion, load_scene
+from punctura import load_scene
 from punctura._core import SimulatedDevice
 from punctura.exercise import ResultStore, load_exercise
+from punctura.simulation import RecordedMotion
 from punctura.studio.exercise_activity import ExerciseActivity
 from recorded import recorded
 from runs import cut

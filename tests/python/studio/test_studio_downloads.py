@@ -12,10 +12,11 @@ from urllib.parse import quote
 
 import pyarrow.parquet as pq
 import pytest
-from punctura import Strokes, load_scene
+from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, export, open_recording
 from punctura.record.save_as import PIECE_BYTES, export_pieces
+from punctura.simulation import Strokes
 from punctura.studio import connections, download
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf

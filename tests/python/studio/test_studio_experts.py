@@ -2,8 +2,9 @@
 
 import pytest
 from attempts import as_a_device_runs_it
-from punctura import RecordedMotion, load_scene
+from punctura import load_scene
 from punctura._core import SimulatedDevice
+from punctura.simulation import RecordedMotion
 from punctura.studio.experts import Experts
 from recorded import recorded
 

@@ -12,6 +12,7 @@ import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice
 from punctura.record import RecordingError
+from punctura.simulation import Strokes
 from punctura.studio import computing, limits, security, traces
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_TRACE
@@ -138,7 +139,7 @@ def test_a_file_that_is_no_trace_is_told_in_a_sentence(tmp_path, name, body):
 
 def test_a_recording_states_its_columns_and_its_needle(tmp_path):
     scene = pn.load_scene("k06-fig12")
-    strokes = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=1)
+    strokes = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=1)
     recorded(tmp_path / "run.parquet", SimulatedDevice(strokes, real_time=False, ticks=200), scene, 200)
     told = []
     do(TraceJob(task="look", file=str(tmp_path / "run.parquet")), told.append)

@@ -6,13 +6,14 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ServoLoop, SimulatedDevice
+from punctura.simulation import Strokes
 from punctura.studio.compare import OtherSolver
 from punctura.studio.pump import MOST_TICKS, Pump
 from punctura.studio.wire import decode_ticks
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig12")
-STROKES = pn.Strokes([0, 5e-3, 0], [0, -20e-3, 0], count=1, duration=1.0, variation=0.0)
+STROKES = Strokes([0, 5e-3, 0], [0, -20e-3, 0], count=1, duration=1.0, variation=0.0)
 
 
 class Out:

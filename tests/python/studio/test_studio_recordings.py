@@ -7,11 +7,12 @@ import unicodedata
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from punctura import Strokes, load_scene
+from punctura import load_scene
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.exercise import load_exercise
 from punctura.record import Recorder, open_recording, replay
 from punctura.record.header import to_metadata
+from punctura.simulation import Strokes
 from punctura.studio.client import StudioClient
 from punctura.studio.wire import decode_ticks
 

@@ -9,6 +9,7 @@ import punctura as pn
 from punctura._core import TickArrays
 from punctura.record import open_recording
 from punctura.record.columns import LOST, NEW_SCENES
+from punctura.simulation import Experiment, Strokes
 from punctura.studio.wire import decode_ticks, encode_ticks
 from punctura.ticks import COMMAND_SCENE, FIELDS
 from punctura.ticks.fields import file_columns
@@ -42,7 +43,7 @@ def test_a_recordings_ticks_have_the_fields_of_the_table(recording):
 
 
 def test_a_frame_has_the_fields_that_the_table_marks_for_the_page():
-    ticks = pn.Experiment(pn.load_scene("k06-fig12"), pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0])).run(0.1)
+    ticks = Experiment(pn.load_scene("k06-fig12"), Strokes([0, 5e-3, 0], [0, -10e-3, 0])).run(0.1)
     frame = decode_ticks(encode_ticks(ticks, run=0))
     assert set(frame.ticks) == {field.name for field in FIELDS.values() if field.on_page}
     assert np.array_equal(frame.ticks.force, ticks.force.astype(np.float32))

@@ -11,6 +11,7 @@ import punctura as pn
 import pyarrow.csv
 import pyarrow.parquet
 import pytest
+from punctura.simulation import Experiment, Strokes
 from punctura.ticks import ABSENT, FIELDS, Ticks
 from punctura.ticks.fields import file_column, file_columns
 from punctura.ticks.flat import flatten, gather
@@ -34,7 +35,7 @@ def insertion():
 
 
 def experiment():
-    return pn.Experiment(SCENE, pn.Strokes([0, 5e-3, 0], [0, -10e-3, 0]), seed=1).run(1.0)
+    return Experiment(SCENE, Strokes([0, 5e-3, 0], [0, -10e-3, 0]), seed=1).run(1.0)
 
 
 def simulated():

@@ -9,6 +9,7 @@ import scipy.io
 from openpyxl import Workbook
 from punctura.cli._trace import needle_of
 from punctura.live import SimulatedDevice
+from punctura.simulation import Strokes
 from punctura.trace import TraceError, read_trace
 from recorded import recorded
 from traces import trace
@@ -64,7 +65,7 @@ def test_every_format_gives_the_same_trace(tmp_path, name):
 
 def test_a_recording_is_a_trace_along_the_needle(tmp_path):
     scene = pn.load_scene("k06-fig12")
-    strokes = pn.Strokes((0, 5e-3, 0), (0, -0.02, 0), count=1, duration=1, rest=0.2)
+    strokes = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=1, duration=1, rest=0.2)
     recorded(tmp_path / "run.parquet", SimulatedDevice(strokes, real_time=False, ticks=3500), scene, 3500)
     read = read_trace(tmp_path / "run.parquet")
     assert np.ptp(read.depth) == pytest.approx(0.025, rel=0.1)

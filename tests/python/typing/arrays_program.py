@@ -8,6 +8,7 @@ import punctura as pn
 from punctura.events import EventFinder
 from punctura.live import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, open_device
 from punctura.record import Recorder, open_recording
+from punctura.simulation import Experiment, Hand, RecordedMotion, Strokes, Target
 
 Floats = npt.NDArray[np.float64]
 solvers: tuple[Literal["exact", "paper"], ...] = ("exact", "paper")
@@ -43,19 +44,19 @@ symbols: list[str] = [field.symbol for field in scene.fields() if field.max > fi
 softer: pn.Scene = scene.with_values({"membrane[0].stiffness": 300}).replace(name="softer")
 kept: bytes = pn.Insertion(scene).state
 
-motions: list[pn.Strokes | pn.RecordedMotion | pn.Target] = [
-    pn.Strokes(start=(0, 5e-3, 0), end=np.array([0, -1e-2, 0])),
-    pn.RecordedMotion(np.arange(3) / 1600, np.zeros((3, 3))),
-    pn.Target([0, 0, 0]),
+motions: list[Strokes | RecordedMotion | Target] = [
+    Strokes(start=(0, 5e-3, 0), end=np.array([0, -1e-2, 0])),
+    RecordedMotion(np.arange(3) / 1600, np.zeros((3, 3))),
+    Target([0, 0, 0]),
 ]
 for motion in motions:
-    experiment = pn.Experiment(softer, motion, hand=pn.Hand(tremor_rms=0), seed=1, axis=np.array([0.0, -1.0, 0.0]))
+    experiment = Experiment(softer, motion, hand=Hand(tremor_rms=0), seed=1, axis=np.array([0.0, -1.0, 0.0]))
     trace: pn.Ticks = experiment.run(1)
     pops: int = sum(event.what == "pop" for event in EventFinder(softer).add(trace))
 
 fed = FedDevice(1000.0, info=DeviceInfo(model="own", has_orientation=True, max_force=3.0))
 answer: tuple[float, float, float] = fed.feed((0.0, 0.05, 0.0))
-for device in (fed, SimulatedDevice(pn.Target((0, 0, 0))), open_device("simulated")):
+for device in (fed, SimulatedDevice(Target((0, 0, 0))), open_device("simulated")):
     with ServoLoop(device, scene, limits=ForceLimits(max_force=1.0), gate=GateLimits()) as loop:
         listener = loop.listen()
         with Recorder(loop, "run.parquet"):

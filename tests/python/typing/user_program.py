@@ -8,6 +8,7 @@ from punctura.exercise import Attempt, Result, ResultStore, load_exercise
 from punctura.files.toml import Tables
 from punctura.live import BackendState, Limits, enumerate_devices, load_limits, load_placement
 from punctura.record import open_recording
+from punctura.simulation import SimulationSummary
 from punctura.studio.activity import Activity, Outcome
 from punctura.studio.exercise_activity import ExerciseActivity
 from punctura.studio.wire.messages import Notice
@@ -20,7 +21,7 @@ insertion = pn.Insertion(firmer)
 force: object = insertion.step([0.0, 5e-3, 0.0], np.array([0.0, -1.0, 0.0]))
 proxy = pn.Proxy1d(pn.ThinLaw(needle, scene.membranes[0].membrane), scene.coupling, 1e-3, solver="paper")
 newtons: float = proxy.step(1e-3)
-summary: pn.SimulationSummary = pn.simulate(scene, "motion.csv", Path("forces.csv"))
+summary: SimulationSummary = pn.simulate(scene, "motion.csv", Path("forces.csv"))
 ticks: pn.Ticks = pn.simulate(scene, np.linspace(0.0, 9e-3, 100), axis=[0, -1, 0])
 peak = float(ticks.axial_force[:, 0].min()) + float(ticks[10:20]["lower"].max()) + len(proxy.run([0.0, 1e-3]).force)
 
