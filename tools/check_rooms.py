@@ -37,6 +37,7 @@ ROOMS = (
     "python/punctura/extras.py",
     "python/punctura/one_thread.py",
     "python/punctura/paths.py",
+    "python/punctura/syringe.py",
     "python/punctura/files",
     "python/punctura/ticks",
     "python/punctura/scene",

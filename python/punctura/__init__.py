@@ -21,10 +21,8 @@ from punctura._core import (
     MaxwellBranch,
     Membrane,
     Needle,
-    Outlet,
     Phase,
     PlacedMembrane,
-    Plunger,
     ProfileLaw,
     Proxy1d,
     Proxy3d,
@@ -33,14 +31,10 @@ from punctura._core import (
     SceneField,
     ServoSettings,
     ServoState,
-    Syringe,
-    SyringeSettings,
     ThickLaw,
     ThinLaw,
     Tissue,
     TissueLaw,
-    outlet_at,
-    tube_resistance,
 )
 from punctura._core import (
     version as _version,
@@ -71,10 +65,8 @@ __all__ = [
     "MaxwellBranch",
     "Membrane",
     "Needle",
-    "Outlet",
     "Phase",
     "PlacedMembrane",
-    "Plunger",
     "Problem",
     "ProfileLaw",
     "Proxy1d",
@@ -84,8 +76,6 @@ __all__ = [
     "SceneField",
     "ServoSettings",
     "ServoState",
-    "Syringe",
-    "SyringeSettings",
     "ThickLaw",
     "ThinLaw",
     "Ticks",
@@ -97,12 +87,10 @@ __all__ = [
     "grid",
     "include_dir",
     "load_scene",
-    "outlet_at",
     "save_scene",
     "scene_json_schema",
     "scene_names",
     "simulate",
-    "tube_resistance",
 ]
 
 # The modules of the names that are imported at their first use.
@@ -131,12 +119,14 @@ _SUBJECTS = frozenset(
         "simulation",
         "studio",
         "study",
+        "syringe",
         "trace",
     ]
 )
 # Names of the compiled core that their subject provides, for the message of an AttributeError.
 _ELSEWHERE = {
     "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),
+    "syringe": ("Outlet", "Plunger", "Syringe", "SyringeSettings", "outlet_at", "tube_resistance"),
 }
 
 

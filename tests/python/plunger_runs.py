@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import punctura as pn
-from punctura import Plunger, outlet_at
 from punctura._core import tip_length
+from punctura.syringe import Plunger, outlet_at
 
 NAME = "epidural-plunger"
 SCENE = pn.load_scene("epidural")

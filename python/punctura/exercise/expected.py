@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from punctura import Scene, Syringe
-from punctura._core import ForceLimits, crossing, force_scale, grazing_cosine, law_curve
+from punctura import Scene
+from punctura._core import ForceLimits, Syringe, crossing, force_scale, grazing_cosine, law_curve
 from punctura.exercise.course import asked_push, felt_membranes, judges_plunger
 from punctura.exercise.exercise import Exercise, start_axis
 from punctura.exercise.fields import MOST_PUSH_N

@@ -4,6 +4,7 @@ import warnings
 
 import punctura as pn
 import pytest
+from punctura.syringe import Syringe
 
 NEEDLE = {"diameter": 1.08e-3, "tip_angle": 0.28}
 WALL = {"stiffness": 570, "precompression": 0.41, "friction": 0.2, "thickness": 1e-4}
@@ -82,8 +83,8 @@ def test_a_wrong_argument_is_named(make, says):
         (lambda: pn.Membrane(570, 410, 0.2, 1e-4), "If you meant 410 mN, write 0.41"),
         (lambda: pn.Membrane(570, 0.41, 0.2, 1.0), "If you meant 1 mm, write 0.001"),
         (lambda: pn.Coupling(0.4, 1), "If you meant 0.4 N/mm, write 400"),
-        (lambda: pn.Syringe(15, 4e-6, 0, 0.5, 1e-12, 1e9), "syringe.bore = 15 m is unusual. If you meant 15 mm"),
-        (lambda: pn.Syringe(0.015, 4, 0, 0.5, 1e-12, 1e9), "If you meant 4 mL, write 4e-06"),
+        (lambda: Syringe(15, 4e-6, 0, 0.5, 1e-12, 1e9), "syringe.bore = 15 m is unusual. If you meant 15 mm"),
+        (lambda: Syringe(0.015, 4, 0, 0.5, 1e-12, 1e9), "If you meant 4 mL, write 4e-06"),
     ],
 )
 def test_a_number_in_another_unit_gives_a_warning_that_names_the_unit(make, says):

@@ -13,6 +13,7 @@ import pytest
 from exported import exported
 from punctura.rivals import Rival, RivalInsertion
 from punctura.simulation import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
+from punctura.syringe import Outlet, Plunger, Syringe
 
 T = 1 / 1600
 NEEDLE, MEMBRANE, COUPLING = pn.Needle(1.08e-3, 0.28), pn.Membrane(570, 0.41, 0.2, 1e-3), pn.Coupling(400, 1)
@@ -46,7 +47,7 @@ def estimate(model: Any, part: slice) -> Any:
 
 
 def plunger(model: Any, part: slice) -> Any:
-    return {"force": np.array([model.step(depth, pn.Outlet(1e11, 1e3)) for depth in DEPTH[part]])}
+    return {"force": np.array([model.step(depth, Outlet(1e11, 1e3)) for depth in DEPTH[part]])}
 
 
 def operator(model: Any, part: slice) -> Any:
@@ -70,7 +71,7 @@ MADE: dict[str, tuple[Callable[[], Any], Part]] = {
     "LineBatch, paper": (lambda: pn.LineBatch(THICK, [COUPLING, pn.Coupling(700, 0.2)], T, "paper"), batch),
     "RivalInsertion": (lambda: RivalInsertion(SCENE, [Rival("dahl")]), space),
     "LiveEstimate": (lambda: pn.LiveEstimate(noise=6e-3, least_drop=0.05), estimate),
-    "Plunger": (lambda: pn.Plunger(pn.Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), pn.Coupling(2000, 2), T), plunger),
+    "Plunger": (lambda: Plunger(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), pn.Coupling(2000, 2), T), plunger),
     "Target": (lambda: Target(END), moved),
     "Experiment, strokes": (
         lambda: Experiment(SCENE, Strokes(START, END), hand=Hand(tremor_rms=1e-4), seed=3),

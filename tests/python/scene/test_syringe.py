@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from punctura import ConfigurationError, Coupling, Outlet, Syringe, SyringeSettings, load_scene, save_scene
+from punctura import ConfigurationError, Coupling, load_scene, save_scene
 from punctura._core import Fault, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.record import Recorder, open_recording, replay
 from punctura.simulation import Target
+from punctura.syringe import Outlet, Syringe, SyringeSettings
 from recorded import run_to_end
 from waiting import wait_until
 

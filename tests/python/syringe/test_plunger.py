@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from punctura import ConfigurationError, Coupling, Outlet, Phase, Plunger, Syringe, outlet_at, tube_resistance
+from punctura import ConfigurationError, Coupling, Phase
+from punctura.syringe import Outlet, Plunger, Syringe, outlet_at, tube_resistance
 from scipy.optimize import brentq
 
 T, P_0, EASIER = 1 / 1600, 101325.0, 55.4
