@@ -20,6 +20,7 @@ from punctura.exercise import load_exercise
 from punctura.exercise.losses import Losses
 from punctura.exercise.result import Loss
 from punctura.exercise.ticks import Geometry
+from punctura.live import Limit
 from punctura.live.force_words import MODEL_FORCE, felt_force, scale_text
 from punctura.reproduce.style import figure_style, new_figure
 
@@ -72,7 +73,7 @@ def pushed(device: str, display: float | str, speed: float) -> Run:
     losses.add(Geometry(scene).ticks(ticks), find_events(ticks, scene))
     loss = next(one for one in losses.found if one.membrane == wall)
     before = ticks.time <= loss.time
-    limits = (pn.Limit.peak.value, pn.Limit.continuous.value)
+    limits = (Limit.peak.value, Limit.continuous.value)
     return Run(device, speed, scene, ticks, loss, float((np.isin(ticks.limit, limits) & before).sum()) / rate)
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import punctura as pn
 from numpy.typing import NDArray
+from punctura.live import LiveEstimate
 from punctura.simulation import Experiment, Strokes
 
 RATE = 1600.0
@@ -89,7 +90,7 @@ def falls(force: Array, depth: Array, noise: float, share: float = 1.0) -> list[
 
 
 def measure(tally: Tally, depth: Array, force: Array, noise: float, rng: np.random.Generator) -> None:
-    live = pn.LiveEstimate(noise=noise)
+    live = LiveEstimate(noise=noise)
     told = live.run(depth, force + noise * rng.standard_normal(len(force)), PERIOD)
     alarms = np.flatnonzero(told["punctured"]).tolist()
     entries = np.cumsum(np.diff(depth < 0, prepend=True))  # there is one wall, so one puncture between two of them

@@ -11,13 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from punctura._core import (
     Coupling,
-    DeviceError,
     DisplaySettings,
-    Fault,
     Insertion,
-    Limit,
     LineBatch,
-    LiveEstimate,
     MaxwellBranch,
     Membrane,
     Needle,
@@ -30,7 +26,6 @@ from punctura._core import (
     Scene,
     SceneField,
     ServoSettings,
-    ServoState,
     ThickLaw,
     ThinLaw,
     Tissue,
@@ -55,13 +50,9 @@ __all__ = [
     "BatchResult",
     "ConfigurationError",
     "Coupling",
-    "DeviceError",
     "DisplaySettings",
-    "Fault",
     "Insertion",
-    "Limit",
     "LineBatch",
-    "LiveEstimate",
     "MaxwellBranch",
     "Membrane",
     "Needle",
@@ -75,7 +66,6 @@ __all__ = [
     "Scene",
     "SceneField",
     "ServoSettings",
-    "ServoState",
     "ThickLaw",
     "ThinLaw",
     "Ticks",
@@ -125,6 +115,7 @@ _SUBJECTS = frozenset(
 )
 # Names of the compiled core that their subject provides, for the message of an AttributeError.
 _ELSEWHERE = {
+    "live": ("DeviceError", "Fault", "Limit", "LiveEstimate", "ServoState"),
     "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),
     "syringe": ("Outlet", "Plunger", "Syringe", "SyringeSettings", "outlet_at", "tube_resistance"),
 }

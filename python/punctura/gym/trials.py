@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from punctura import Fault, load_scene
-from punctura._core import Fleet, Hand, Plant
+from punctura import load_scene
+from punctura._core import Fault, Fleet, Hand, Plant
 from punctura.gym.observation import OBSERVATION, Observations, observations
 from punctura.gym.population import Population
 from punctura.gym.task import Task

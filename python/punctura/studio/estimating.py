@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from punctura import LiveEstimate, Scene
+from punctura import Scene
+from punctura._core import LiveEstimate
 from punctura.studio.wire.messages import Estimated, EstimateMessage, FoundPuncture
 from punctura.ticks import Ticks
 

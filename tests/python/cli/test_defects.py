@@ -10,10 +10,11 @@ import sys
 import numpy as np
 import pyarrow as pa
 import pytest
-from punctura import DeviceError, load_scene
+from punctura import load_scene
 from punctura.cli import _app
 from punctura.cli._status import DEFECT
 from punctura.defects import explain, is_defect, log_file
+from punctura.live import DeviceError
 from punctura.studio.defects import Defects
 from punctura.studio.names import safe_name
 from punctura.ticks.files import save

@@ -10,6 +10,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import Fleet, simd_instructions
+from punctura.live import Fault
 from punctura.simulation import Experiment, Target
 
 SCENE = pn.load_scene("k06-fig10")
@@ -66,7 +67,7 @@ def test_a_trial_that_faults_is_computed_alone_from_then_on():
         step, expected = made.step(speed, 90), alone.step(speed, 90)
         for name, column in step.items():
             np.testing.assert_array_equal(column, expected[name])
-    assert list(step["fault"]) == [0, 0, pn.Fault.position_jump.value, 0, 0]
+    assert list(step["fault"]) == [0, 0, Fault.position_jump.value, 0, 0]
     if simd_instructions()[0] != "portable":
         assert list(made.in_lanes) == [True, True, False, True, True]
         made.place(2, SCENE, START, seed=2)

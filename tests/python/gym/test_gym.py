@@ -15,6 +15,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from punctura.extras import optional
 from punctura.gym.trials import Trials
+from punctura.live import Fault
 from punctura.simulation import Hand, Plant
 
 NAMES = [f"punctura/{name}-v0" for name in pg.TASKS]
@@ -112,7 +113,7 @@ def test_a_fault_ends_the_trial_and_is_in_the_result_of_its_own_trial_only():
         _, reward, ended, _, info = env.step(np.array([[-1], [0]], np.float32))
         if ended.any():
             break
-    assert pn.Fault(int(info["fault"][0])) == pn.Fault.position_jump and info["fault"][1] == 0
+    assert Fault(int(info["fault"][0])) == Fault.position_jump and info["fault"][1] == 0
     assert list(ended) == [True, False] and reward[0] == -1
 
 

@@ -8,8 +8,18 @@ import time
 import numpy as np
 import punctura as pn
 import pytest
-from punctura import Fault, Limit
-from punctura.live import DeviceInfo, FedDevice, GateLimits, Pacer, ReplayDevice, ServoLoop, make_realtime, run_live
+from punctura.live import (
+    DeviceInfo,
+    Fault,
+    FedDevice,
+    GateLimits,
+    Limit,
+    Pacer,
+    ReplayDevice,
+    ServoLoop,
+    make_realtime,
+    run_live,
+)
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig10")

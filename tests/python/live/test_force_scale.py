@@ -7,7 +7,7 @@ import pytest
 from punctura._core import ServoLoop
 from punctura.cli._headless import begun, in_words
 from punctura.cli._status_line import status_text
-from punctura.live import RunSummary, SimulatedDevice, felt_force
+from punctura.live import RunSummary, ServoState, SimulatedDevice, felt_force
 from punctura.record import Recorder, export, open_recording, replay, replay_device
 from punctura.simulation import Strokes
 from punctura.studio.recorded import tick_frames
@@ -30,7 +30,7 @@ def test_the_hand_gets_the_scaled_force_and_the_recording_has_both(tmp_path):
     recording = open_recording(recorded(tmp_path / "run.parquet", device(), scaled(0.3), TICKS))
     ticks = recording.ticks()
     assert (ticks.force_scale == 0.3).all()
-    free = (ticks.limit == 0) & (ticks.state == pn.ServoState.active)
+    free = (ticks.limit == 0) & (ticks.state == ServoState.active)
     assert free.sum() > TICKS / 2 and np.abs(ticks.model_force[free]).max() > 0.5
     np.testing.assert_array_equal(ticks.force[free], 0.3 * ticks.model_force[free])
     assert recording.info.scene.display.force_scale == 0.3

@@ -2,7 +2,7 @@
 
 import numpy as np
 import punctura as pn
-from punctura.live import SimulatedDevice
+from punctura.live import Limit, ServoState, SimulatedDevice
 from punctura.record import open_recording, replay
 from punctura.scene.write import scene_text
 from punctura.simulation import Strokes
@@ -29,7 +29,7 @@ def assert_it_is_the_table(ticks):
         now = phase == sliding
         assert now.sum() > 200 and np.ptp(depth[now]) > 5e-3
         np.testing.assert_allclose(force[now], np.interp(depth[now], DEPTH, law), atol=1e-9)
-    free = (ticks.limit == pn.Limit.none) & (ticks.state == pn.ServoState.active)
+    free = (ticks.limit == Limit.none) & (ticks.state == ServoState.active)
     assert np.abs(ticks.force[free, 1]).max() > 0.5
     np.testing.assert_array_equal(ticks.force[free], ticks.model_force[free])
 

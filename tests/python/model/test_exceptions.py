@@ -3,9 +3,10 @@
 import pickle
 
 import pytest
-from punctura import ConfigurationError, DeviceError, Needle, Problem, PuncturaError, load_scene
+from punctura import ConfigurationError, Needle, Problem, PuncturaError, load_scene
 from punctura._core import open_device
 from punctura.exercise import ResultsError
+from punctura.live import DeviceError
 from punctura.record import RecordingError, open_recording
 from punctura.simulation import MotionError
 from punctura.studio.serve import StudioError

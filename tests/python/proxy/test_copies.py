@@ -11,6 +11,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from exported import exported
+from punctura.live import LiveEstimate
 from punctura.rivals import Rival, RivalInsertion
 from punctura.simulation import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
 from punctura.syringe import Outlet, Plunger, Syringe
@@ -70,7 +71,7 @@ MADE: dict[str, tuple[Callable[[], Any], Part]] = {
     "LineBatch": (lambda: pn.LineBatch([THIN, THICK, PROFILE] * 15, COUPLING, T), batch),
     "LineBatch, paper": (lambda: pn.LineBatch(THICK, [COUPLING, pn.Coupling(700, 0.2)], T, "paper"), batch),
     "RivalInsertion": (lambda: RivalInsertion(SCENE, [Rival("dahl")]), space),
-    "LiveEstimate": (lambda: pn.LiveEstimate(noise=6e-3, least_drop=0.05), estimate),
+    "LiveEstimate": (lambda: LiveEstimate(noise=6e-3, least_drop=0.05), estimate),
     "Plunger": (lambda: Plunger(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), pn.Coupling(2000, 2), T), plunger),
     "Target": (lambda: Target(END), moved),
     "Experiment, strokes": (

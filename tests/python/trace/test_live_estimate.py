@@ -3,6 +3,7 @@
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.live import LiveEstimate
 
 PERIOD = 1 / 1600
 DOWN = (0, -1, 0)
@@ -21,7 +22,7 @@ def stroke():
 
 def test_one_pop_is_found_with_slope_plateau_and_place(stroke):
     way, force = stroke
-    live = pn.LiveEstimate()
+    live = LiveEstimate()
     inwards = int(np.argmax(way >= 8.9e-3))
     told = live.run(way[:inwards], force[:inwards], PERIOD)
     assert live.punctures == 1
@@ -39,19 +40,19 @@ def test_one_pop_is_found_with_slope_plateau_and_place(stroke):
 
 
 def test_the_state_of_an_estimate_with_other_settings_is_refused():
-    live = pn.LiveEstimate(noise=6e-3, least_drop=0.05)
+    live = LiveEstimate(noise=6e-3, least_drop=0.05)
     with pytest.raises(ValueError, match="no state of this LiveEstimate"):
-        pn.LiveEstimate().state = live.state
+        LiveEstimate().state = live.state
 
 
 def test_bad_samples_are_counted_and_reset_forgets(stroke):
     way, force = stroke
-    live = pn.LiveEstimate()
+    live = LiveEstimate()
     live.run(way[:3000], np.where(np.arange(3000) % 100 == 7, np.nan, force[:3000]), PERIOD)
     assert live.ignored == 30
     live.reset()
     assert (live.ignored, live.punctures, live.phase, live.slope) == (0, 0, "free", None)
     with pytest.raises(pn.ConfigurationError, match=r"live_estimate.least_share"):
-        pn.LiveEstimate(least_share=1.5)
+        LiveEstimate(least_share=1.5)
     with pytest.raises(ValueError, match="one value for each depth"):
         live.run([0, 1], [0], PERIOD)
