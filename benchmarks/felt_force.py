@@ -23,6 +23,7 @@ from punctura.exercise.ticks import Geometry
 from punctura.live import Limit
 from punctura.live.force_words import MODEL_FORCE, felt_force, scale_text
 from punctura.reproduce.style import figure_style, new_figure
+from punctura.scene import DisplaySettings
 
 DEVICES = {"3.3 N": ForceLimits(), "0.88 N": ForceLimits(max_force=0.88)}
 SCALES = (1.0, "automatic")
@@ -43,7 +44,7 @@ class Run(NamedTuple):
 def pushed(device: str, display: float | str, speed: float) -> Run:
     """A needle that is pushed from in front of the skin into the epidural space."""
     exercise = load_exercise("epidural")
-    scene = exercise.scene.replace(display=pn.DisplaySettings(display))
+    scene = exercise.scene.replace(display=DisplaySettings(display))
     rate = scene.servo.rate
     rest = np.full(round(READY_S * rate), START)
     y = np.concatenate([rest, np.arange(START, END, -speed / rate)])

@@ -12,6 +12,7 @@ import numpy as np
 import punctura as pn
 from numpy.typing import NDArray
 from punctura.live import LiveEstimate
+from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 
 RATE = 1600.0
@@ -47,7 +48,7 @@ def scene_with(rng: np.random.Generator) -> pn.Scene:
         thickness=10 ** rng.uniform(-4.0, -2.7),
     )
     placed = pn.PlacedMembrane("wall", membrane, (0, 0, 0), DOWN)
-    servo = pn.ServoSettings(rate=RATE, conditioning="line_fit")
+    servo = ServoSettings(rate=RATE, conditioning="line_fit")
     return pn.Scene("one", needle, pn.Coupling(400.0, 1.0), [placed], servo)
 
 

@@ -41,6 +41,7 @@ from punctura.identify.plan import information
 from punctura.identify.slow_noise import Mixture
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95
+from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
 from scipy.signal import lfilter
@@ -123,7 +124,7 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
         force = Misfit(Trace(depth, depth, time), true).forces(true.with_values(truth))
     else:
         scene = pn.Scene(
-            "random", needle, pn.Coupling(truth["coupling_stiffness"], 0.01), walls, servo=pn.ServoSettings(low_pass=0)
+            "random", needle, pn.Coupling(truth["coupling_stiffness"], 0.01), walls, servo=ServoSettings(low_pass=0)
         )
         strokes = Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
         ticks = Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))

@@ -81,7 +81,7 @@ def table(schema: dict[str, Any]) -> Iterator[str]:
 
 def scene_keys_page() -> str:
     """The JSON Schema of scene files as tables."""
-    from punctura import scene_json_schema
+    from punctura.scene import scene_json_schema
 
     schema: dict[str, Any] = scene_json_schema()
     lines = [

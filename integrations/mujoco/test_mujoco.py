@@ -12,6 +12,7 @@ import numpy as np
 import punctura as pn
 import punctura.mujoco as pm
 import pytest
+from punctura.scene import ServoSettings
 
 mujoco = pytest.importorskip("mujoco", reason="test.sh installs it")
 
@@ -93,7 +94,7 @@ def test_without_the_implicit_force_it_is_that_of_the_core_bit_for_bit():
     m = model(1e-2, joint=SLIDE)
     d = mujoco.MjData(m)
     attached = pm.attach(m, scene(0, -2e-3), "tip", "tissue", implicit=False)
-    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, pn.ServoSettings(500, 0)))
+    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, ServoSettings(500, 0)))
     d.qvel[0] = -0.2
     largest = 0.0
     for _ in range(500):
@@ -109,7 +110,7 @@ def test_the_implicit_force_is_that_of_the_core_at_the_end_of_the_step_bit_for_b
     m = model(2e-3, joint=SLIDE)
     d = mujoco.MjData(m)
     attached = pm.attach(m, scene(0, -2e-3), "tip", "tissue")
-    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, pn.ServoSettings(500, 0)))
+    core = pn.Insertion(pn.Scene("", NEEDLE, pn.Coupling(400, 1), scene(0, -2e-3).membranes, ServoSettings(500, 0)))
     core.step((0, 0, 2e-3), (0, 0, -1))  # where the needle begins
     assert attached.last_tick(d) is None
     needle, largest = m.body("needle").id, 0.0
@@ -126,7 +127,7 @@ def test_the_implicit_force_is_that_of_the_core_at_the_end_of_the_step_bit_for_b
 
 def test_the_relaxation_of_the_scene_is_used():
     whole = scene(0).replace(relaxation=[pn.MaxwellBranch(120, 0.3)])
-    core = pn.Insertion(whole.replace(servo=pn.ServoSettings(500, 0)))
+    core = pn.Insertion(whole.replace(servo=ServoSettings(500, 0)))
     core.step((0, 0, 2e-3), (0, 0, -1))  # where the needle begins
     m = model(2e-3, joint=SLIDE)
     d = mujoco.MjData(m)

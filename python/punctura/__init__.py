@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from punctura._core import (
     Coupling,
-    DisplaySettings,
     Insertion,
     LineBatch,
     MaxwellBranch,
@@ -24,8 +23,6 @@ from punctura._core import (
     Proxy3d,
     PuncturaError,
     Scene,
-    SceneField,
-    ServoSettings,
     ThickLaw,
     ThinLaw,
     Tissue,
@@ -40,7 +37,7 @@ from punctura.paths import cmake_dir, include_dir
 
 if TYPE_CHECKING:
     from punctura.batches import BatchResult, batch, grid
-    from punctura.scene import load_scene, save_scene, scene_json_schema, scene_names
+    from punctura.scene import load_scene, save_scene, scene_names
     from punctura.simulation import simulate
     from punctura.ticks import Ticks
 
@@ -50,7 +47,6 @@ __all__ = [
     "BatchResult",
     "ConfigurationError",
     "Coupling",
-    "DisplaySettings",
     "Insertion",
     "LineBatch",
     "MaxwellBranch",
@@ -64,8 +60,6 @@ __all__ = [
     "Proxy3d",
     "PuncturaError",
     "Scene",
-    "SceneField",
-    "ServoSettings",
     "ThickLaw",
     "ThinLaw",
     "Ticks",
@@ -78,7 +72,6 @@ __all__ = [
     "include_dir",
     "load_scene",
     "save_scene",
-    "scene_json_schema",
     "scene_names",
     "simulate",
 ]
@@ -86,7 +79,7 @@ __all__ = [
 # The modules of the names that are imported at their first use.
 _LATE = {
     "punctura.batches": ("BatchResult", "batch", "grid"),
-    "punctura.scene": ("load_scene", "save_scene", "scene_json_schema", "scene_names"),
+    "punctura.scene": ("load_scene", "save_scene", "scene_names"),
     "punctura.simulation": ("simulate",),
     "punctura.ticks": ("Ticks",),
 }
@@ -106,6 +99,7 @@ _SUBJECTS = frozenset(
         "record",
         "reproduce",
         "rivals",
+        "scene",
         "simulation",
         "studio",
         "study",
@@ -115,6 +109,7 @@ _SUBJECTS = frozenset(
 )
 # Names of the compiled core that their subject provides, for the message of an AttributeError.
 _ELSEWHERE = {
+    "scene": ("DisplaySettings", "SceneField", "ServoSettings", "scene_json_schema"),
     "live": ("DeviceError", "Fault", "Limit", "LiveEstimate", "ServoState"),
     "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),
     "syringe": ("Outlet", "Plunger", "Syringe", "SyringeSettings", "outlet_at", "tube_resistance"),

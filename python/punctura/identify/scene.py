@@ -8,17 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from punctura import (
-    ConfigurationError,
-    Coupling,
-    DisplaySettings,
-    MaxwellBranch,
-    Membrane,
-    PlacedMembrane,
-    Scene,
-    Tissue,
-)
-from punctura._core import set_unusual_warnings
+from punctura import ConfigurationError, Coupling, MaxwellBranch, Membrane, PlacedMembrane, Scene, Tissue
+from punctura._core import DisplaySettings, set_unusual_warnings
 from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters
 
 DAMPING = 1.0  # N s/m, of the coupling: a servo loop needs some, and slow traces do not show it

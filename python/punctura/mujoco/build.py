@@ -6,7 +6,8 @@ import weakref
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from punctura import ConfigurationError, DisplaySettings, Insertion, Scene, ServoSettings
+from punctura import ConfigurationError, Insertion, Scene
+from punctura._core import DisplaySettings, ServoSettings
 from punctura.extras import missing, optional
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.kinematics import Link

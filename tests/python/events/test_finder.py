@@ -9,6 +9,7 @@ import punctura as pn
 import pytest
 from punctura import Phase
 from punctura.events import EventFinder, crossing
+from punctura.scene import ServoSettings
 from runs import along, cut, moved, ramp, unit
 
 SCENE = pn.load_scene("k06-fig12")
@@ -89,7 +90,7 @@ def test_a_second_entry_gives_them_all_again():
 
 @pytest.mark.parametrize(("back", "pops"), [(0.3e-3, 1), (1.5e-3, 1), (3e-3, 2), (5e-3, 2)])
 def test_a_pop_counts_again_once_the_tip_has_come_back_before_the_peak(back, pops):
-    scene = pn.load_scene("k06-fig11").replace(servo=pn.ServoSettings(low_pass=0))
+    scene = pn.load_scene("k06-fig11").replace(servo=ServoSettings(low_pass=0))
     turns = crossing(scene, 0, 1.0)
     assert turns.through - turns.again > 2e-3
     deep = turns.through + 2e-3  # depth of the tip; the proxy lags by the stretch of the coupling

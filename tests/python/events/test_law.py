@@ -6,6 +6,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura.events import EventFinder, crossing
+from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from runs import along, ramp, unit
 
@@ -21,7 +22,7 @@ def wall(thickness, stiffness=570, precompression=0.41, friction=0.2):
 
 def scene_of(membrane, solver="exact"):
     placed = [pn.PlacedMembrane("wall", membrane, (0, 0, 0), (0, -1, 0))]
-    return pn.Scene("one wall", NEEDLE, COUPLING, placed, pn.ServoSettings(low_pass=0, solver=solver))
+    return pn.Scene("one wall", NEEDLE, COUPLING, placed, ServoSettings(low_pass=0, solver=solver))
 
 
 def offline(scene, index, obliquity):

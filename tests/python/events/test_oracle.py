@@ -9,6 +9,7 @@ import pytest
 from oracles import events as oracle
 from punctura import Phase
 from punctura.events import EventFinder, crossing
+from punctura.scene import ServoSettings
 from runs import cut, moved, unit
 
 
@@ -23,7 +24,7 @@ def random_scene(random):
         normal = unit(way + random.choice([0, 0.4]) * random.normal(size=3))
         placed.append(pn.PlacedMembrane(f"{i}", membrane, random.uniform(0, 6e-3) * way, 1.5 * normal))
     coupling = pn.Coupling(random.uniform(200, 4000), random.uniform(0, 2))
-    servo = pn.ServoSettings(rate=500, low_pass=0, solver=random.choice(["exact", "paper"]))
+    servo = ServoSettings(rate=500, low_pass=0, solver=random.choice(["exact", "paper"]))
     return pn.Scene("random", needle, coupling, placed, servo), way
 
 

@@ -7,6 +7,7 @@ from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, o
 from punctura._core import ForceLimits, ServoState
 from punctura.exercise import Result, cannot_show, expected_losses, load_exercise
 from punctura.exercise.losses import needed_drop
+from punctura.scene import DisplaySettings
 
 SCENE = pn.load_scene("venipuncture")
 PRESS = HEAD.replace("[space]", "[space]\npress_mm = 9\nsign_is_felt = true")
@@ -136,17 +137,17 @@ def test_a_larger_force_needs_a_larger_drop():
 
 def test_a_weak_device_is_known_before_the_attempt():
     exercise = load_exercise("epidural")
-    whole = exercise.scene.replace(display=pn.DisplaySettings(1))
+    whole = exercise.scene.replace(display=DisplaySettings(1))
     weak = ForceLimits(max_force=0.88)
     assert cannot_show(exercise, whole, ForceLimits()) == ""
     assert cannot_show(exercise, whole, weak).startswith(
         "This device cannot show the loss of resistance of the ligamentum flavum (none; 0.1 N needed), "
     )
-    automatic = exercise.scene.replace(display=pn.DisplaySettings("automatic"))
+    automatic = exercise.scene.replace(display=DisplaySettings("automatic"))
     assert cannot_show(exercise, automatic, weak) == ""
     (loss,) = expected_losses(exercise, automatic, weak)
     assert loss.before < weak.max_force and loss.force_scale < 0.4
-    assert "larger force_scale" in cannot_show(exercise, whole.replace(display=pn.DisplaySettings(0.005)), weak)
+    assert "larger force_scale" in cannot_show(exercise, whole.replace(display=DisplaySettings(0.005)), weak)
 
 
 def test_what_is_expected_is_what_a_hand_gets():

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from attempts import cuts_near, goal, hand_run, judged
 from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, SCENE, with_thumb
-from punctura import DisplaySettings
 from punctura._core import ForceLimits, ServoLoop, SimulatedDevice, Target, ThumbLoop
 from punctura.exercise import Attempt, exercise_names, load_exercise, score, thumb_cannot_show
 from punctura.record import Recorder
+from punctura.scene import DisplaySettings
 from waiting import wait_until
 
 EXERCISE = load_exercise(NAME)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from punctura import Coupling, DisplaySettings, MaxwellBranch, load_scene, scene_names
+from punctura import Coupling, MaxwellBranch, load_scene, scene_names
 from punctura.live import (
     DeviceInfo,
     FedDevice,
@@ -13,6 +13,7 @@ from punctura.live import (
     run_live,
     strokes_through,
 )
+from punctura.scene import DisplaySettings
 from punctura.simulation import Plant
 from punctura.studio.loaded import from_name
 from punctura.studio.run import Bench, Run, Settings

@@ -9,6 +9,7 @@ from punctura.cli._headless import begun, in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, ServoState, SimulatedDevice, felt_force
 from punctura.record import Recorder, export, open_recording, replay, replay_device
+from punctura.scene import DisplaySettings
 from punctura.simulation import Strokes
 from punctura.studio.recorded import tick_frames
 from recorded import recorded, run_to_end
@@ -19,7 +20,7 @@ STROKES = Strokes((0, 5e-3, 0), (0, -0.02, 0), count=2, duration=0.8, rest=0.6)
 
 
 def scaled(force_scale):
-    return pn.load_scene("k06-fig12").replace(display=pn.DisplaySettings(force_scale))
+    return pn.load_scene("k06-fig12").replace(display=DisplaySettings(force_scale))
 
 
 def device(ticks=TICKS):

@@ -4,6 +4,7 @@ import warnings
 
 import punctura as pn
 import pytest
+from punctura.scene import DisplaySettings, ServoSettings
 from punctura.syringe import Syringe
 
 NEEDLE = {"diameter": 1.08e-3, "tip_angle": 0.28}
@@ -24,10 +25,10 @@ WALL = {"stiffness": 570, "precompression": 0.41, "friction": 0.2, "thickness": 
             lambda: pn.Proxy1d(pn.ThickLaw(pn.Needle(**NEEDLE), pn.Membrane(**WALL)), pn.Coupling(400, 1), 1600),
             "period",
         ),
-        (lambda: pn.ServoSettings(rate=float("nan")), "servo.rate"),
-        (lambda: pn.ServoSettings().replace(low_pass=-1), "servo.low_pass"),
-        (lambda: pn.ServoSettings(sub_steps=1.5), "servo.sub_steps"),
-        (lambda: pn.DisplaySettings(float("nan")), "display.force_scale"),
+        (lambda: ServoSettings(rate=float("nan")), "servo.rate"),
+        (lambda: ServoSettings().replace(low_pass=-1), "servo.low_pass"),
+        (lambda: ServoSettings(sub_steps=1.5), "servo.sub_steps"),
+        (lambda: DisplaySettings(float("nan")), "display.force_scale"),
         (lambda: pn.MaxwellBranch(float("nan"), 0.1), "coupling.relaxation.stiffness"),
         (lambda: pn.Tissue(cutting=float("nan")), "tissue.cutting"),
         (lambda: pn.PlacedMembrane("a", pn.Membrane(**WALL), [0, float("nan"), 0], [0, -1, 0]), "membrane.point"),
@@ -61,7 +62,7 @@ def test_all_invalid_values_are_reported_together():
             lambda: pn.Proxy1d(pn.ThinLaw(pn.Needle(**NEEDLE), pn.Membrane(**WALL)), pn.Coupling(400, 1), periode=1e-3),
             "no argument periode; did you mean period?",
         ),
-        (lambda: pn.ServoSettings(rate=1600, lowpass=300), "no argument lowpass; did you mean low_pass?"),
+        (lambda: ServoSettings(rate=1600, lowpass=300), "no argument lowpass; did you mean low_pass?"),
         (lambda: pn.Needle(**NEEDLE).replace(angle=0.3), "no argument angle; did you mean tip_angle?"),
     ],
 )

@@ -14,6 +14,7 @@ import punctura.mujoco
 import pytest
 from punctura.mujoco.frames import seen_from
 from punctura.mujoco.implicit import solve
+from punctura.scene import ServoSettings
 
 RNG = np.random.default_rng(13)
 NEEDLE, COUPLING, T = pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1), 2e-3
@@ -21,7 +22,7 @@ NEEDLE, COUPLING, T = pn.Needle(1.08e-3, 0.28), pn.Coupling(400, 1), 2e-3
 
 def insertion(thickness: float = 1e-3) -> pn.Insertion:
     wall = pn.PlacedMembrane("wall", pn.Membrane(570, 0.41, 0.2, thickness), (0, 0, 0), (0, 0, -1))
-    return pn.Insertion(pn.Scene("wall", NEEDLE, COUPLING, [wall], pn.ServoSettings(rate=1 / T, low_pass=0)))
+    return pn.Insertion(pn.Scene("wall", NEEDLE, COUPLING, [wall], ServoSettings(rate=1 / T, low_pass=0)))
 
 
 def rotation(axis: np.ndarray, angle: float) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import punctura
+from punctura.scene import ServoSettings
 
 from oracles.random_laws import Parameters
 
@@ -76,6 +77,6 @@ def insertion(s, scene: int, solver: str, direction: str = "stylus") -> punctura
                 )
                 for i, lane in enumerate(lanes)
             ],
-            punctura.ServoSettings(1 / float(c.T[lanes[0]]), float(s.low_pass[scene]), solver), direction=direction,
+            ServoSettings(1 / float(c.T[lanes[0]]), float(s.low_pass[scene]), solver), direction=direction,
         )
     )  # fmt: skip

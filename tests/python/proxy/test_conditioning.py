@@ -6,13 +6,14 @@ import numpy as np
 import punctura
 import pytest
 from oracles import signal
+from punctura.scene import ServoSettings
 
 COUNT = 5.5e-5
 AWAY = punctura.PlacedMembrane("m", punctura.Membrane(570.0, 0.41, 0.2, 1e-3), [0, -1, 0], [0, -1, 0])
 
 
 def insertion(rate=1600.0, **servo):
-    settings = punctura.ServoSettings(rate=rate, **servo)
+    settings = ServoSettings(rate=rate, **servo)
     return punctura.Insertion(
         punctura.Scene("s", punctura.Needle(1.08e-3, 0.28), punctura.Coupling(400.0, 1.0), [AWAY], settings)
     )
@@ -67,12 +68,12 @@ def test_a_run_is_the_same_as_its_ticks_and_a_reset_starts_anew():
 
 
 def test_settings_are_values_and_tell_what_is_wrong_with_them():
-    settings = punctura.ServoSettings(conditioning="line_fit", encoder_step=1e-5)
-    assert settings.replace(solver="paper") == punctura.ServoSettings(1600.0, 300.0, "paper", "line_fit", 1e-5)
+    settings = ServoSettings(conditioning="line_fit", encoder_step=1e-5)
+    assert settings.replace(solver="paper") == ServoSettings(1600.0, 300.0, "paper", "line_fit", 1e-5)
     assert "conditioning='line_fit', encoder_step=1e-05" in repr(settings)
     with pytest.raises(
         punctura.ConfigurationError, match=r"servo.conditioning = .*must be \"low_pass\" or \"line_fit\""
     ):
-        punctura.ServoSettings(conditioning="smooth")
+        ServoSettings(conditioning="smooth")
     with pytest.raises(punctura.ConfigurationError, match=r"servo.encoder_step = 0.01: must be from 0"):
         insertion(encoder_step=0.01)

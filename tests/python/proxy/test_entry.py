@@ -6,6 +6,7 @@ import numpy as np
 import punctura
 import pytest
 from oracles import cases, core, proxy_3d, random_scenes, signal
+from punctura.scene import ServoSettings
 
 NEEDLE, MEMBRANE = punctura.Needle(1.08e-3, 0.28), punctura.Membrane(570.0, 0.41, 0.2, 1e-3)
 COUPLING = punctura.Coupling(400.0, 1.0)
@@ -90,7 +91,7 @@ def test_the_direction_from_the_motion_is_that_of_the_last_10_ms_or_the_last_ten
         rate = rng.uniform(500, 4000)
         p = curved(rng, 300, rate, max(rng.uniform(4e-6 * rate, 0.03), 4e-6 * rate))
         placed = punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)
-        servo = punctura.ServoSettings(rate, 0.0, solver)
+        servo = ServoSettings(rate, 0.0, solver)
         trace = punctura.Insertion(punctura.Scene("s", NEEDLE, COUPLING, [placed], servo, direction="motion")).run(p, Z)
         b = signal.motion_direction(p, rate)
         b[~b.any(axis=1)] = -Z  # a tip that has not moved has no direction, and does not enter
@@ -109,7 +110,7 @@ def test_a_slow_hand_enters_in_the_direction_of_its_last_tenths_of_a_millimetre_
     sideways = straight[0] + np.linspace(-1e-3, 0, 2000)[:, None] * tilted(-60)
     p = np.concatenate([sideways, straight[:7000], np.repeat(straight[6999:7000], rest, axis=0), straight[7000:]])
     placed = punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)
-    servo = punctura.ServoSettings(RATE, 0.0, solver)
+    servo = ServoSettings(RATE, 0.0, solver)
 
     def force(direction, axis):
         scene = punctura.Scene("s", NEEDLE, COUPLING, [placed], servo, direction=direction)
@@ -127,7 +128,7 @@ def test_a_motion_that_does_not_point_into_the_membrane_does_not_enter(solver):
     p = np.stack([x, 0 * x, 0.01 * x], axis=1)  # 89.4 degrees
     scene = punctura.Scene(
         "s", NEEDLE, COUPLING, [punctura.PlacedMembrane("m", MEMBRANE, [0, 0, 0], Z)],
-        punctura.ServoSettings(RATE, 300.0, solver), direction="motion",
+        ServoSettings(RATE, 300.0, solver), direction="motion",
     )  # fmt: skip
     trace = punctura.Insertion(scene).run(p, Z)
     assert not trace.force.any() and trace.phase[-1, 0] == punctura.Phase.barred.value

@@ -4,6 +4,7 @@ import numpy as np
 import punctura
 import pytest
 from oracles import cases, core, proxy_3d, random_scenes, signal
+from punctura.scene import ServoSettings
 
 TICKS = 150
 SOLVERS = ("exact", "paper")
@@ -76,7 +77,7 @@ def test_the_force_of_several_membranes_is_the_sum_of_their_forces_alone(solver)
             scene = punctura.Scene(
                 "one", core.needle(s.parameters, lane),
                 punctura.Coupling(float(s.coupling.K[lane]), float(s.coupling.B[lane])), [placed],
-                punctura.ServoSettings(1 / float(s.coupling.T[lane]), float(s.low_pass[i]), solver),
+                ServoSettings(1 / float(s.coupling.T[lane]), float(s.low_pass[i]), solver),
             )  # fmt: skip
             alone.append(punctura.Insertion(scene).run(s.p[:, i].copy(), s.axis[:, i].copy()))
         for j, one in enumerate(alone):
@@ -137,7 +138,7 @@ def test_the_low_pass_is_the_first_order_filter_with_the_gain_for_a_held_sample(
     scene = punctura.Scene(
         "step", punctura.Needle(1.08e-3, 0.28), punctura.Coupling(K, B),
         [punctura.PlacedMembrane("m", punctura.Membrane(570.0, 0.41, 0.2, 1e-3), [0, 0, 0], [0, 0, 1])],
-        punctura.ServoSettings(rate, 300.0, "exact"),
+        ServoSettings(rate, 300.0, "exact"),
     )  # fmt: skip
     run = punctura.Insertion(scene)
     z = np.concatenate([np.linspace(-1e-3, 7e-3, 3000), np.linspace(7e-3, 6.3e-3, 600), np.full(400, 6.3e-3)])

@@ -10,6 +10,7 @@ from punctura.live.run_notes import run_notes
 from punctura.record import Recorder, RecordingError, open_recording, replay
 from punctura.record.header import RecordingInfo
 from punctura.rivals import Layer, Rival, RivalInsertion, save_layers
+from punctura.scene import DisplaySettings
 from punctura.simulation import Strokes
 from punctura.studio.recorded import overview
 from waiting import wait_until
@@ -92,7 +93,7 @@ def test_limits_and_the_automatic_scale_act_on_a_rival(tmp_path):
     limited = felt(tmp_path / "a.parquet", [strong])
     assert np.linalg.norm(limited.force, axis=1).max() <= ForceLimits().max_force + 1e-12
     assert limited["peak_limited"][-1] + limited["continuous_limited"][-1] > 0
-    automatic = SCENE.replace(display=pn.DisplaySettings("automatic"))
+    automatic = SCENE.replace(display=DisplaySettings("automatic"))
     scaled = felt(tmp_path / "b.parquet", [strong], automatic)
     assert scaled.force_scale[0] < 0.1
     assert overview(open_recording(tmp_path / "b.parquet")).scene.force_scale == scaled.force_scale[0]

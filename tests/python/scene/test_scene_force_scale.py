@@ -1,9 +1,9 @@
 """`[display] force_scale` in a scene file."""
 
 import pytest
-from punctura import ConfigurationError, DisplaySettings, load_scene, save_scene, scene_json_schema
+from punctura import ConfigurationError, load_scene, save_scene
 from punctura._core import ForceLimits, force_scale, largest_force, lasting_force
-from punctura.scene import scene_text
+from punctura.scene import DisplaySettings, scene_json_schema, scene_text
 from punctura.studio.loaded import from_text
 
 LAST = "inward_normal = [0, -2, 0]\n"

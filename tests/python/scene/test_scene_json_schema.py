@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import math
 
-from punctura import ServoSettings, scene_json_schema
 from punctura._core import scene_keys
 from punctura.files.units import split_key
+from punctura.scene import ServoSettings, scene_json_schema
 
 TABLES = {
     "needle": "NeedleTable", "coupling": "CouplingTable", "servo": "ServoTable", "display": "DisplayTable",

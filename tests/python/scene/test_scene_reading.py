@@ -6,7 +6,8 @@ import math
 from pathlib import Path
 
 import pytest
-from punctura import ServoSettings, load_scene
+from punctura import load_scene
+from punctura.scene import ServoSettings
 
 
 def test_every_value_arrives_in_si_rounded_once(write):

@@ -9,19 +9,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from punctura import (
     Coupling,
-    DisplaySettings,
     MaxwellBranch,
     Membrane,
     Needle,
     PlacedMembrane,
     Scene,
-    ServoSettings,
     Tissue,
     load_scene,
     save_scene,
     scene_names,
 )
 from punctura.files.units import UNITS, from_si, to_si
+from punctura.scene import DisplaySettings, ServoSettings
 from punctura.scene.write import _number as toml_number
 
 

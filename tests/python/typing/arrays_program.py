@@ -8,6 +8,7 @@ import punctura as pn
 from punctura.events import EventFinder
 from punctura.live import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, open_device
 from punctura.record import Recorder, open_recording
+from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Hand, RecordedMotion, Strokes, Target
 
 Floats = npt.NDArray[np.float64]
@@ -37,7 +38,7 @@ scene = pn.Scene(
     needle,
     pn.Coupling(400, 1),
     (pn.PlacedMembrane("wall", membrane, np.zeros(3), (0, -1, 0), behind="blood"),),
-    pn.ServoSettings(rate=1000, solver="paper", conditioning="line_fit", encoder_step=5e-5),
+    ServoSettings(rate=1000, solver="paper", conditioning="line_fit", encoder_step=5e-5),
     direction="motion",
 )
 symbols: list[str] = [field.symbol for field in scene.fields() if field.max > field.min]
