@@ -11,7 +11,8 @@ from typing import Any, Literal
 
 import numpy as np
 from program import ProgramError
-from punctura import Coupling, LineBatch, Membrane, Needle, ThickLaw
+from punctura import Coupling, Membrane, Needle, ThickLaw
+from punctura.batches import LineBatch
 from rival_batches import Array, Constants, constants, jax_batch, motion, numba_batch, numpy_batch
 from rival_exact import jax_exact, numba_exact
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from punctura._core import (
     Coupling,
     Insertion,
-    LineBatch,
     MaxwellBranch,
     Membrane,
     Needle,
@@ -36,7 +35,7 @@ from punctura.extras import MissingPackageError
 from punctura.paths import cmake_dir, include_dir
 
 if TYPE_CHECKING:
-    from punctura.batches import BatchResult, batch, grid
+    from punctura.batches import batch, grid
     from punctura.scene import load_scene, save_scene, scene_names
     from punctura.simulation import simulate
     from punctura.ticks import Ticks
@@ -44,11 +43,9 @@ if TYPE_CHECKING:
 __version__ = _version()
 
 __all__ = [
-    "BatchResult",
     "ConfigurationError",
     "Coupling",
     "Insertion",
-    "LineBatch",
     "MaxwellBranch",
     "Membrane",
     "Needle",
@@ -78,7 +75,7 @@ __all__ = [
 
 # The modules of the names that are imported at their first use.
 _LATE = {
-    "punctura.batches": ("BatchResult", "batch", "grid"),
+    "punctura.batches": ("batch", "grid"),
     "punctura.scene": ("load_scene", "save_scene", "scene_names"),
     "punctura.simulation": ("simulate",),
     "punctura.ticks": ("Ticks",),
@@ -87,6 +84,7 @@ _MODULE_OF = {name: module for module, names in _LATE.items() for name in names}
 # The subjects that `import punctura` also provides: punctura.live, punctura.identify, ...
 _SUBJECTS = frozenset(
     [
+        "batches",
         "compare",
         "events",
         "exercise",
@@ -109,6 +107,7 @@ _SUBJECTS = frozenset(
 )
 # Names of the compiled core that their subject provides, for the message of an AttributeError.
 _ELSEWHERE = {
+    "batches": ("BatchResult", "LineBatch"),
     "scene": ("DisplaySettings", "SceneField", "ServoSettings", "scene_json_schema"),
     "live": ("DeviceError", "Fault", "Limit", "LiveEstimate", "ServoState"),
     "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),

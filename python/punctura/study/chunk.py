@@ -8,7 +8,8 @@ import re
 import numpy as np
 import pyarrow as pa
 
-from punctura import BatchResult, __version__, batch
+from punctura import __version__, batch
+from punctura.batches import BatchResult
 from punctura.errors import ConfigurationError, Problem
 from punctura.scene.write import scene_text
 from punctura.study.design import Design

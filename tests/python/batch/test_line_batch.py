@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from numpy.lib.stride_tricks import as_strided
 from numpy.typing import NDArray
-from punctura import Coupling, LineBatch, Membrane, Needle, ProfileLaw, Proxy1d, ThickLaw, ThinLaw
+from punctura import Coupling, Membrane, Needle, ProfileLaw, Proxy1d, ThickLaw, ThinLaw
 from punctura._core import simd_instructions
+from punctura.batches import LineBatch
 
 PERIOD = 1 / 1600
 NEEDLE = Needle(diameter=1.08e-3, tip_angle=0.28)

@@ -11,6 +11,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from exported import exported
+from punctura.batches import LineBatch
 from punctura.live import LiveEstimate
 from punctura.rivals import Rival, RivalInsertion
 from punctura.simulation import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
@@ -68,8 +69,8 @@ MADE: dict[str, tuple[Callable[[], Any], Part]] = {
     "Proxy3d, paper": (lambda: pn.Proxy3d(NEEDLE, MEMBRANE, [0, 0, 0], [0.1, -1, 0], COUPLING, T, "paper"), space),
     "Insertion": (lambda: pn.Insertion(SCENE), space),
     "Insertion, by motion": (lambda: pn.Insertion(BY_MOTION), space),
-    "LineBatch": (lambda: pn.LineBatch([THIN, THICK, PROFILE] * 15, COUPLING, T), batch),
-    "LineBatch, paper": (lambda: pn.LineBatch(THICK, [COUPLING, pn.Coupling(700, 0.2)], T, "paper"), batch),
+    "LineBatch": (lambda: LineBatch([THIN, THICK, PROFILE] * 15, COUPLING, T), batch),
+    "LineBatch, paper": (lambda: LineBatch(THICK, [COUPLING, pn.Coupling(700, 0.2)], T, "paper"), batch),
     "RivalInsertion": (lambda: RivalInsertion(SCENE, [Rival("dahl")]), space),
     "LiveEstimate": (lambda: LiveEstimate(noise=6e-3, least_drop=0.05), estimate),
     "Plunger": (lambda: Plunger(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), pn.Coupling(2000, 2), T), plunger),
@@ -150,12 +151,12 @@ def test_bytes_that_are_no_state_of_this_object_are_refused(name: str) -> None:
 
 
 def test_the_state_of_a_batch_with_other_laws_or_couplings_is_refused() -> None:
-    one = pn.LineBatch([THIN, THICK], COUPLING, T)
+    one = LineBatch([THIN, THICK], COUPLING, T)
     for other in (
-        pn.LineBatch([THICK, THIN], COUPLING, T),
-        pn.LineBatch([THIN, THICK], [COUPLING, pn.Coupling(401, 1)], T),
-        pn.LineBatch([THIN, THICK], COUPLING, T, "paper"),
-        pn.LineBatch([THIN, THICK, THICK], COUPLING, T),
+        LineBatch([THICK, THIN], COUPLING, T),
+        LineBatch([THIN, THICK], [COUPLING, pn.Coupling(401, 1)], T),
+        LineBatch([THIN, THICK], COUPLING, T, "paper"),
+        LineBatch([THIN, THICK, THICK], COUPLING, T),
     ):
         with pytest.raises(ValueError, match="other parameters"):
             one.state = other.state

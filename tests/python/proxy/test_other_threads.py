@@ -6,6 +6,7 @@ import threading
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.batches import LineBatch
 from punctura.live import FedDevice
 from punctura.simulation import Experiment, Target
 from waiting import PATIENCE_S
@@ -36,7 +37,7 @@ def experiment():
 
 
 def batch():
-    made = pn.LineBatch(pn.ThinLaw(NEEDLE, MEMBRANE), SCENE.coupling, 1e-3)
+    made = LineBatch(pn.ThinLaw(NEEDLE, MEMBRANE), SCENE.coupling, 1e-3)
     return made, lambda progress: made.run(np.zeros(1000), progress=progress)
 
 
