@@ -9,11 +9,11 @@ from typing import Any
 from text import heading
 
 PACKAGES = [
-    "punctura", "punctura.scene", "punctura.syringe", "punctura.simulation", "punctura.batches", "punctura.live",
-    "punctura.record", "punctura.events", "punctura.exercise", "punctura.reproduce",
+    "punctura", "punctura.errors", "punctura.scene", "punctura.syringe", "punctura.simulation", "punctura.batches",
+    "punctura.live", "punctura.record", "punctura.events", "punctura.exercise", "punctura.reproduce",
     "punctura.rivals", "punctura.trace", "punctura.identify",
     "punctura.mujoco",
-    "punctura.gym", "punctura.study",
+    "punctura.gym", "punctura.study", "punctura.paths",
 ]  # fmt: skip
 
 

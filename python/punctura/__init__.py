@@ -30,9 +30,8 @@ from punctura._core import (
 from punctura._core import (
     version as _version,
 )
-from punctura.errors import ConfigurationError, Problem
+from punctura.errors import ConfigurationError
 from punctura.extras import MissingPackageError
-from punctura.paths import cmake_dir, include_dir
 
 if TYPE_CHECKING:
     from punctura.batches import batch, grid
@@ -51,7 +50,6 @@ __all__ = [
     "Needle",
     "Phase",
     "PlacedMembrane",
-    "Problem",
     "ProfileLaw",
     "Proxy1d",
     "Proxy3d",
@@ -64,9 +62,7 @@ __all__ = [
     "TissueLaw",
     "__version__",
     "batch",
-    "cmake_dir",
     "grid",
-    "include_dir",
     "load_scene",
     "save_scene",
     "scene_names",
@@ -93,6 +89,7 @@ _SUBJECTS = frozenset(
         "identify",
         "live",
         "mujoco",
+        "paths",
         "poses",
         "record",
         "reproduce",
@@ -105,12 +102,14 @@ _SUBJECTS = frozenset(
         "trace",
     ]
 )
-# Names of the compiled core that their subject provides, for the message of an AttributeError.
+# Where a name stands that one may look for at the top: for the message of an AttributeError.
 _ELSEWHERE = {
+    "errors": ("Problem",),
+    "paths": ("cmake_dir", "include_dir"),
     "batches": ("BatchResult", "LineBatch"),
     "scene": ("DisplaySettings", "SceneField", "ServoSettings", "scene_json_schema"),
     "live": ("DeviceError", "Fault", "Limit", "LiveEstimate", "ServoState"),
-    "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "Strokes", "Target"),
+    "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "SimulationSummary", "Strokes", "Target"),
     "syringe": ("Outlet", "Plunger", "Syringe", "SyringeSettings", "outlet_at", "tube_resistance"),
 }
 

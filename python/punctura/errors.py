@@ -8,6 +8,15 @@ from typing import Any, Final, NamedTuple
 
 from punctura._core import PuncturaError
 
+__all__ = [
+    "ConfigurationError",
+    "IncompleteCallError",
+    "NoSuchFileError",
+    "Problem",
+    "PuncturaError",
+    "sentence_of",
+]
+
 
 class _Missing:
     """The value of a missing field."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+__all__ = ["cmake_dir", "include_dir"]
+
 _PREFIX = Path(__file__).parent
 
 

@@ -8,7 +8,8 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
-from punctura import _core, cmake_dir, include_dir, paths
+from punctura import _core, paths
+from punctura.paths import cmake_dir, include_dir
 
 ROOT = Path(__file__).resolve().parents[2]
 

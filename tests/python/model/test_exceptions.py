@@ -3,8 +3,9 @@
 import pickle
 
 import pytest
-from punctura import ConfigurationError, Needle, Problem, PuncturaError, load_scene
+from punctura import ConfigurationError, Needle, PuncturaError, load_scene
 from punctura._core import open_device
+from punctura.errors import Problem
 from punctura.exercise import ResultsError
 from punctura.live import DeviceError
 from punctura.record import RecordingError, open_recording
