@@ -5,7 +5,7 @@ import re
 import punctura as pn
 from person import drag_in, events, ready, saved
 from playwright.sync_api import Page, expect
-from traced import answer, dropped
+from traced import DROP, answer, dropped, measured
 
 
 def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
@@ -42,3 +42,16 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     expect(page.locator(".header")).to_contain_text("Force on")
     drag_in(page, pops=1)
     expect(events(page, "pop").first).to_contain_text("membrane 1")
+
+
+def test_a_trace_that_states_everything_is_drawn_at_once_and_the_next_file_waits(page: Page):
+    ready(page)
+    part = page.locator(".trace-part")
+    page.route("**/api/lab/file?name=first.csv", lambda route: None)  # an answer that does not come
+    page.evaluate(DROP, ["first.csv", measured()])
+    expect(part).to_contain_text("reading first.csv")
+    page.evaluate(DROP, ["second.csv", measured().replace("depth", "depth_mm", 1)])
+    expect(part).to_contain_text("second.csv waits until the present computation is done.")
+    page.get_by_role("button", name="Cancel").click()
+    expect(part.get_by_role("img", name="second.csv: force against depth")).to_be_visible()
+    expect(part.get_by_role("button", name="Identify")).to_be_enabled()

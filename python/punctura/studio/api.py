@@ -23,7 +23,7 @@ from punctura.extras import MissingPackageError
 from punctura.record import RecordingError, open_recording
 from punctura.record.save_as import export_pieces
 from punctura.studio.catalog import scene_outlines
-from punctura.studio.computing import LabError
+from punctura.studio.computing import LabError, Line
 from punctura.studio.download import Download, json_of
 from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
@@ -61,8 +61,8 @@ class Api:
     def __init__(self, session: Session) -> None:
         self._session, self._shelf, self._results = session, session.shelf, session.results
         self._exporting = threading.BoundedSemaphore(MOST_EXPORTS)
-        one = threading.BoundedSemaphore(1)  # computation at a time
-        self._lab, self._traces = Lab(session, one), Traces(one)
+        line = Line()
+        self._lab, self._traces = Lab(session, line), Traces(line)
 
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"

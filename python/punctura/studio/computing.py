@@ -1,4 +1,4 @@
-"""A computation in a process of its own, whose lines are sent to the page as they come. One at a time."""
+"""Computations in processes of their own, whose lines are sent to the page as they come. One at a time, in line."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -26,6 +27,7 @@ ALIVE_S = 0.25  # after which a client that has gone is noticed
 LONGEST_S = 1800.0  # of one computation
 NOTHING = b"\n"
 TOO_LONG = "the computation was ended because it took more than {:g} minutes; {}"
+MOST_WAITING = 8  # computations: each holds one of the threads that answer pages
 clock = time.monotonic  # the tests use another
 MOST_ERRORS = 4096  # bytes of the worker's last error messages
 
@@ -39,13 +41,41 @@ def worker(module: str) -> list[str]:
     return [sys.executable, "-c", _START.format(module)]
 
 
-def take_place(place: threading.BoundedSemaphore) -> None:
-    """Takes the place of the one computation that may run. Raises LabError if it is taken.
+class Line:
+    """The computations of all pages: one runs, the others wait in the order in which they came."""
 
-    Waits for WAIT_S: a computation that was cancelled ends a moment later.
-    """
-    if not place.acquire(timeout=WAIT_S):
-        raise LabError("the Lab is computing something else; try again when it is done, or cancel it")
+    def __init__(self) -> None:
+        self._asked: deque[object] = deque()  # the one that runs is the first
+        self._moved = threading.Condition()
+
+    def in_turn(self, compute: Callable[[], Iterator[bytes]], waiting: Callable[[str], bytes]) -> Iterator[bytes]:
+        """The lines of a computation when its turn comes. Closing the iterator leaves the line.
+
+        waiting: the line for one that waits, from words for the page; an empty line comes after each further ALIVE_S.
+        Raises LabError if too many wait.
+        """
+        me = object()
+        with self._moved:
+            if len(self._asked) > MOST_WAITING:
+                raise LabError(f"{MOST_WAITING} computations wait already; try again when they are done, or cancel one")
+            self._asked.append(me)
+        try:
+            told = 0
+            while ahead := self._ahead(me):
+                yield NOTHING if ahead == told else waiting(f"waiting: {ahead} computation(s) before this one")
+                told = ahead
+            yield from compute()
+        finally:
+            with self._moved:
+                self._asked.remove(me)
+                self._moved.notify_all()
+
+    def _ahead(self, me: object) -> int:
+        """How many come before this one, at once if none does, otherwise after ALIVE_S or when the line moves."""
+        with self._moved:
+            before = self._asked.index(me)
+            self._moved.wait_for(lambda: self._asked.index(me) < before or before == 0, ALIVE_S)
+            return self._asked.index(me)
 
 
 def lines_of(

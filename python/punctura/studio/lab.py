@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import tempfile
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,9 +16,9 @@ from starlette.responses import Response
 
 from punctura.compare.comparison import On
 from punctura.compare.vary import MOST_RUNS
-from punctura.compare.worker import Job, LabFailure, Variation
+from punctura.compare.worker import Job, LabFailure, LabProgress, Variation
 from punctura.scene import scene_text
-from punctura.studio.computing import LabError, lines_of, take_place, worker
+from punctura.studio.computing import LabError, Line, lines_of, worker
 from punctura.studio.download import Download, json_of
 from punctura.studio.session import Session
 from punctura.studio.wire.common import Part
@@ -41,12 +40,12 @@ class SceneField(Part):
 
 
 class Lab:
-    """One job at a time, for all pages together: `place` is shared with the other computations."""
+    """Comparisons and variations. `line` is shared with the other computations."""
 
-    def __init__(self, session: Session, place: threading.BoundedSemaphore) -> None:
+    def __init__(self, session: Session, line: Line) -> None:
         self._session, self._shelf = session, session.shelf
         self._scenes: dict[str, str] = {}  # scene texts by the id of their variation, the oldest first
-        self._place = place
+        self._line = line
 
     def fields(self, request: Request) -> Response:
         """The fields of the present scene that can be varied, with their present values, SI."""
@@ -61,10 +60,9 @@ class Lab:
     def compare(self, request: Request) -> Response:
         """The comparison as JSON lines: first the progress, then the result or the error."""
         job = self._job(request.query_params)
-        take_place(self._place)
         if job.variation:
             self._keep(request.query_params.get("id", ""), job.variation.scene)
-        return Download(_lines(job), self._place, media_type="application/x-ndjson")
+        return Download(_lines(job, self._line), media_type="application/x-ndjson")
 
     async def bundle(self, request: Request) -> Response:
         """The zip file of the same comparison; with the same id, of the scene that was compared."""
@@ -74,14 +72,9 @@ class Lab:
                 raise LabError("the studio no longer has the scene of this variation; simulate it again")
             same = job.variation.model_copy(update={"scene": self._scenes[name]})
             job = job.model_copy(update={"variation": same})
-        await run_in_threadpool(take_place, self._place)
-        try:
-            pieces = await _begun(_zipped(job), request)
-        except BaseException:
-            self._place.release()
-            raise
+        pieces = await _begun(_zipped(job, self._line), request)
         headers = {"content-disposition": 'attachment; filename="punctura-comparison.zip"'}
-        return Download(pieces, self._place, media_type="application/zip", headers=headers)
+        return Download(pieces, media_type="application/zip", headers=headers)
 
     def _keep(self, name: str, scene: str) -> None:
         if not name:
@@ -129,19 +122,22 @@ def _number(asked: QueryParams, name: str) -> float:
     return value
 
 
-def _lines(job: Job) -> Iterator[bytes]:
-    """The worker's lines as they come."""
+def _lines(job: Job, line: Line) -> Iterator[bytes]:
+    """The worker's lines as they come, in turn."""
     asked, failed = job.model_dump_json().encode(), lambda why: LabFailure(error=why).model_dump_json().encode() + b"\n"
-    return lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording")
+    return line.in_turn(
+        lambda: lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording"),
+        lambda words: LabProgress(share=0.0, run=words).model_dump_json().encode() + b"\n",
+    )
 
 
-def _zipped(job: Job) -> Iterator[bytes]:
+def _zipped(job: Job, line: Line) -> Iterator[bytes]:
     """The zip file in pieces; empty ones while it is made."""
     with tempfile.TemporaryDirectory(prefix="punctura-") as folder:
         path = Path(folder) / "comparison.zip"
         last = b"{}"
-        for line in _lines(job.model_copy(update={"zip": str(path)})):
-            last = line if line.strip() else last
+        for told in _lines(job.model_copy(update={"zip": str(path)}), line):
+            last = told if told.strip() else last
             yield b""
         if error := json.loads(last).get("error"):
             raise LabError(error)

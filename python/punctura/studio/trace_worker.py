@@ -11,6 +11,7 @@ import re
 import sys
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Literal
 
 from punctura import ConfigurationError, Needle, PuncturaError
@@ -42,6 +43,8 @@ def do(job: TraceJob, say: Say) -> None:
     """Does a job. Raises FieldError, TraceError, OSError, ModuleNotFoundError."""
     if job.task == "look":
         say(file_line(job.file, look_at(job.file)))
+        with suppress(PuncturaError):  # then the page must ask first
+            say(trace_line(read_trace(job.file)))
         return
     if job.order not in ("recorded", "depth"):
         raise FieldError("order", "the order is recorded or depth")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import shutil
 import tempfile
-import threading
 import unicodedata
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,12 +17,12 @@ from starlette.responses import Response
 
 from punctura.files.names import TRACE_ENDINGS
 from punctura.studio import limits
-from punctura.studio.computing import LabError, lines_of, take_place, worker
+from punctura.studio.computing import LabError, Line, lines_of, worker
 from punctura.studio.download import Download
 from punctura.studio.names import LONGEST, BadName, safe_name
 from punctura.studio.security import FILES
 from punctura.studio.trace_job import TraceJob
-from punctura.studio.wire.identified import ErrorLine
+from punctura.studio.wire.identified import ErrorLine, StepLine
 
 FILE, IDENTIFY = FILES
 COMMAND = worker("punctura.studio.trace_worker")
@@ -37,10 +36,10 @@ class Late(Exception):
 
 
 class Traces:
-    """One computation at a time, for all pages together: `place` is shared with the other computations."""
+    """Files of pages. `line` is shared with the other computations."""
 
-    def __init__(self, place: threading.BoundedSemaphore) -> None:
-        self._place = place
+    def __init__(self, line: Line) -> None:
+        self._line = line
         self._receiving = asyncio.Semaphore(MOST_RECEIVED)
 
     async def file(self, request: Request) -> Response:
@@ -55,16 +54,8 @@ class Traces:
         job = _job(task, request.query_params)
         async with self._receiving:
             folder = await _received(request, job.file)
-        return await run_in_threadpool(self._download, job, folder)
-
-    def _download(self, job: TraceJob, folder: Path) -> Response:
-        """The answer, which frees the place and removes the folder at its end."""
-        try:
-            take_place(self._place)
-            return Download(_lines(job, folder), self._place, media_type="application/x-ndjson")
-        except BaseException:
-            shutil.rmtree(folder, ignore_errors=True)
-            raise
+        lines = _lines(job, folder, self._line)
+        return await run_in_threadpool(lambda: Download(lines, media_type="application/x-ndjson"))
 
 
 def _job(task: Literal["look", "identify"], asked: QueryParams) -> TraceJob:
@@ -124,13 +115,16 @@ async def _receive(request: Request, path: Path) -> None:
             raise LabError("the file did not arrive whole") from None
 
 
-def _lines(job: TraceJob, folder: Path) -> Iterator[bytes]:
-    """The worker's lines as they come; then the folder with the file is removed."""
+def _lines(job: TraceJob, folder: Path, line: Line) -> Iterator[bytes]:
+    """The worker's lines as they come, in turn; then the folder with the file is removed."""
 
     def failed(why: str) -> bytes:
         return ErrorLine(text=why[:1].upper() + why[1:]).model_dump_json().encode() + b"\n"
 
     try:
-        yield from lines_of(COMMAND, job.model_dump_json().encode(), failed, ADVICE, folder)
+        yield from line.in_turn(
+            lambda: lines_of(COMMAND, job.model_dump_json().encode(), failed, ADVICE, folder),
+            lambda words: StepLine(words=words, share=None).model_dump_json().encode() + b"\n",
+        )
     finally:
         shutil.rmtree(folder, ignore_errors=True)

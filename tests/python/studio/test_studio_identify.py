@@ -177,21 +177,39 @@ def test_a_file_is_sent_to_its_own_addresses_only_and_with_the_token(served):
     assert connection.getresponse().status == 401
 
 
-def test_one_computation_runs_at_a_time_and_one_that_is_left_ends(served, monkeypatch, tmp_path):
+def test_one_computation_runs_at_a_time_the_others_wait_and_one_that_is_left_ends(served, monkeypatch, tmp_path):
     mark = tmp_path / "pid"
     program = f"import os, pathlib, time; pathlib.Path({str(mark)!r}).write_text(str(os.getpid())); time.sleep(600)"
     monkeypatch.setattr(traces, "COMMAND", [sys.executable, "-c", program])
-    monkeypatch.setattr(computing, "WAIT_S", 0.0)
     answer, connection = send(served, IDENTIFY, csv(), **NEEDLE)
     assert answer.status == 200
-    for path in (FILE, IDENTIFY):
-        status, text = refused(served, path, csv(), **NEEDLE)
-        assert status == 422 and "computing something else" in text
     wait_until(mark.exists)
-    connection.close()  # as the page's Cancel does
     monkeypatch.undo()
-    wait_until(lambda: send(served, FILE, csv())[0].status == 200)  # the place is free again
+    waiting = [send(served, FILE, csv())[0] for _ in range(2)]
+    told = [json.loads(next(line for line in one if line.strip())) for one in waiting]
+    assert [one["words"] for one in told] == [f"waiting: {n} computation(s) before this one" for n in (1, 2)]
+    monkeypatch.setattr(computing, "MOST_WAITING", 2)
+    status, text = refused(served, FILE, csv())
+    assert status == 422 and "2 computations wait already" in text
+    connection.close()  # as the page's Cancel does
+    for one in waiting:
+        last = [json.loads(line) for line in one if line.strip()][-1]
+        assert last["kind"] == "trace" and last["name"] == "a.csv"
     wait_until(lambda: not alive(int(mark.read_text())))
+
+
+def test_one_that_waits_and_is_left_gives_its_turn_to_the_next():
+    line, ran = computing.Line(), []
+
+    def computation(name):
+        return line.in_turn(lambda: iter([ran.append(name) or b"result"]), str.encode)
+
+    first, second, third = (computation(name) for name in ("first", "second", "third"))
+    assert next(first) == b"result"
+    assert next(second).startswith(b"waiting: 1") and next(third).startswith(b"waiting: 2")
+    second.close()
+    first.close()
+    assert list(third)[-1] == b"result" and ran == ["first", "third"]
 
 
 def alive(process):

@@ -92,7 +92,11 @@ describe("a file that is sent", () => {
 
   it("goes as the body of a POST, and its lines come one by one, empty ones left out", async () => {
     const seen: [string, RequestInit][] = [];
-    expect(await lookAt(answering(seen, "", FILE), file, never)).toEqual(FILE);
+    const words: string[] = [];
+    const wait: IdentifyLine = { kind: "step", words: "waiting", share: null };
+    const answer = answering(seen, "", wait, FILE);
+    expect(await lookAt(answer, file, never, (told) => words.push(told))).toEqual({ file: FILE, trace: null });
+    expect(words).toEqual(["waiting"]);
     expect(seen[0]![0]).toBe("/api/lab/file?name=a.csv");
     expect(seen[0]![1]).toMatchObject({ method: "POST", body: file });
   });

@@ -1,6 +1,6 @@
 import { type Api, ApiError } from "../../../wire/api.ts";
 import { jsonLines } from "../../../wire/lines.ts";
-import type { FileLine, IdentifyLine } from "../../../wire/messages.ts";
+import type { FileLine, IdentifyLine, TraceLine } from "../../../wire/messages.ts";
 
 export const LARGEST = 32e6; // bytes of a file; the studio takes no more
 
@@ -47,13 +47,24 @@ export function queryOf(name: string, answers: Answers): string {
   ]).toString();
 }
 
-/** What a file holds. Throws ApiError, FieldError with the reason, or the signal's reason. */
-export async function lookAt(api: Api, file: File, signal: AbortSignal): Promise<FileLine> {
+/** What a file holds, and its trace if the file states everything. */
+export interface Look {
+  readonly file: FileLine;
+  readonly trace: TraceLine | null;
+}
+
+/** Looks into a file. tell: gets words while it waits. Throws ApiError, FieldError, or the signal's reason. */
+export async function lookAt(api: Api, file: File, signal: AbortSignal, tell: (words: string) => void): Promise<Look> {
   const query = new URLSearchParams({ name: file.name });
+  let held: FileLine | null = null;
+  let trace: TraceLine | null = null;
   for await (const line of linesOf(api, `/api/lab/file?${query}`, file, signal)) {
-    if (line.kind === "file") return line;
+    if (line.kind === "step") tell(line.words);
+    else if (line.kind === "file") held = line;
+    else if (line.kind === "trace") trace = line;
   }
-  throw new ApiError("The studio sent no answer.");
+  if (!held) throw new ApiError("The studio sent no answer.");
+  return { file: held, trace };
 }
 
 /** The lines of an identification as they come. Throws as `lookAt` does. */

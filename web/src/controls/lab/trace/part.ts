@@ -4,6 +4,7 @@ import { dropZone, type Kind } from "../../drop_zone.ts";
 import { wordsOf } from "../../recordings/library.ts";
 import { type Form, questions } from "./form.ts";
 import { type Answers, FieldError, identify, lookAt, refusalOf } from "./job.ts";
+import { tracePlot } from "./plot.ts";
 import { traceDialog } from "./result.ts";
 
 const TRACE: Kind = {
@@ -24,10 +25,12 @@ export function tracePart(app: App): HTMLElement {
   const progress = element("div", { class: "tools progress", role: "status", hidden: true }, bar, step, cancel);
   const trouble = element("p", { class: "error", role: "alert" });
   const known = element("p", { class: "quiet", role: "status" });
+  const drawn = element("div");
   const asked = element("div");
   const again = element("button", { type: "button", class: "small", hidden: true }, "Show the result");
   const place = element("div", {}, progress);
   let running: AbortController | null = null;
+  let next: File | null = null; // dropped while another one is computed
   let form: Form | null = null;
   const dialog = traceDialog(app, progress, () => place.append(progress));
   cancel.addEventListener("click", () => running?.abort());
@@ -63,22 +66,26 @@ export function tracePart(app: App): HTMLElement {
 
   const look = async (file: File): Promise<void> => {
     if (running) {
-      trouble.textContent = "Something else is being computed; cancel it first.";
+      next = file;
+      known.textContent = `${file.name} waits until the present computation is done.`;
       return;
     }
     form = null;
     asked.replaceChildren();
+    drawn.replaceChildren();
     known.textContent = "";
     trouble.textContent = refusalOf(file);
     if (trouble.textContent) return;
     await run(`reading ${file.name}…`, async (signal) => {
-      const found = await lookAt(app.api, file, signal);
+      const { file: found, trace } = await lookAt(app.api, file, signal, (words) => show(words, null));
+      if (trace) tracePlot(drawn, trace);
       const states = found.needle ? "a recording: it states everything" : `${found.columns.length} columns`;
       known.textContent = `${found.name}: ${found.rows} rows, ${states}.`;
       form = questions(app, found, (answers) => void start(file, found.name, answers));
       asked.replaceChildren(form.root);
       form.root.querySelector<HTMLElement>("select, input")?.focus();
     });
+    goOn();
   };
 
   const start = async (file: File, name: string, answers: Answers): Promise<void> => {
@@ -96,6 +103,12 @@ export function tracePart(app: App): HTMLElement {
       }
     });
     dialog.end(why);
+    goOn();
+  };
+  const goOn = (): void => {
+    const file = next;
+    next = null;
+    if (file) void look(file);
   };
 
   return element(
@@ -105,6 +118,7 @@ export function tracePart(app: App): HTMLElement {
     zone,
     trouble,
     known,
+    drawn,
     asked,
     place,
     again,
