@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from punctura.cli import _trace
+from punctura.cli import _rig, _trace
 from punctura.cli._notice import notice
 from punctura.cli._out import check_apart, check_folder, check_place
 from punctura.cli._status import FAILED
@@ -45,6 +45,7 @@ def command(
     ] = "",
     membranes: Annotated[str, typer.Option("--membranes", help="Number of membranes, or auto.", metavar="N")] = "auto",
     reading: Reading,
+    rig: _rig.Option = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", help="Scene file to write, for punctura run.", metavar="OUT.toml")
     ] = None,
@@ -86,9 +87,9 @@ def command(
     if hold_out:
         from punctura.cli._hold_out import predict_folder, predict_insertion
 
-        if scene or report or plan or out:
+        if scene or report or plan or out or rig:
             raise typer.BadParameter(
-                "predicts only: leave out --scene, --report, --plan and --out", param_hint="--hold-out"
+                "predicts only: leave out --scene, --report, --plan, --rig and --out", param_hint="--hold-out"
             )
         if folder:
             predict_folder(trace, _trace.needle_of(needle), count, reading, as_json)
@@ -101,7 +102,7 @@ def command(
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        task = Task(_trace.needle_of(needle, trace), count, reading)
+        task = Task(_trace.needle_of(needle, trace), count, reading, _rig.rig_of(rig))
         if not folder:
             write_specimens(trace, reading, out / "specimens")
             trace, task = out / "specimens", replace(task, reading=replace(reading, sheet=None))
@@ -112,7 +113,7 @@ def command(
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
     read, known = _trace.read_with_needle(trace, reading, needle, context)
-    found = identify(read, known, count, notice)
+    found = identify(read, known, count, notice, _rig.rig_of(rig))
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if not as_json and not found.doubts.explained.ok:
         from punctura.rivals import better
@@ -182,4 +183,5 @@ def in_words(found: Identification) -> str:
         low, high = ("?" if bound is None else f"{bound:.4g}" for bound in (e.low, e.high))
         mark = "" if e.identifiable else "  not identifiable"
         lines.append(f"  {e.name:28} {e.value:10.4g} {e.unit:6} [{low}, {high}]{mark}")
+    lines += [f"  of the rig: {value}" for value in found.rig]
     return "\n".join([*lines, *found.verdicts])

@@ -8,5 +8,6 @@ optional("pyarrow", "identify", "punctura.identify")  # before the imports below
 from punctura.identify.identify import Identification, identify
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import Parameters
+from punctura.identify.rig import Rig
 
-__all__ = ["Estimate", "Identification", "Parameters", "identify"]
+__all__ = ["Estimate", "Identification", "Parameters", "Rig", "identify"]

@@ -99,7 +99,8 @@ class Rule:
     def _held_out_error(self, found: Fit) -> float | None:
         squares = []
         for out in self._masks:
-            part = Misfit(found.misfit.trace, found.parameters, ~out, found.misfit.zero)
+            whole = found.misfit
+            part = Misfit(whole.trace, found.parameters, ~out, whole.zero, whole.depth_error)
             try:
                 kept = fit(part, found.free.names, found.parameters)
             except TraceError:

@@ -13,6 +13,7 @@ from punctura._core import TraceModel
 from punctura.identify.parameters import Free, Parameters
 from punctura.identify.slow_noise import NoiseOfFit
 from punctura.trace import Trace, TraceError
+from punctura.trace.air import spread
 
 Array = NDArray[np.float64]
 
@@ -31,10 +32,15 @@ class Misfit:
         parameters: Parameters,
         used: NDArray[np.bool_] | None = None,
         zero: tuple[float, float] = (-np.inf, np.inf),
+        depth_error: DepthError | None = None,
     ) -> None:
-        """used: (n,), the samples that count; all samples move the needle. zero: what the air tells of it, N."""
+        """used: (n,), the samples that count; all samples move the needle. zero: what the air tells of it, N.
+
+        depth_error: what the noise of the depth does to the force.
+        """
         self.trace = trace
         self.zero = zero
+        self.depth_error = depth_error or DepthError(np.zeros(len(trace)), np.ones(len(trace)))
         self.used = np.ones(len(trace), bool) if used is None else used
         self._model = TraceModel(parameters.needle, trace.depth, trace.time)
         self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
@@ -44,18 +50,47 @@ class Misfit:
     def forces(self, parameters: Parameters) -> Array:
         """The model's force at every sample (n,), N, with offset and drift of the sensor."""
         force, _ = self._model.forces(parameters.membranes, parameters.coupling, False)
-        return np.asarray(force + self._nuisance @ parameters.nuisance)
+        return np.asarray(force + self.depth_error.mean + self._nuisance @ parameters.nuisance)
 
     def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Model minus measured force at the used samples, N. blur: see blurred()."""
         left = self.forces(free.parameters(u)) - self.trace.force
-        return np.asarray(blurred(left[:, None], blur)[self.used, 0])
+        return np.asarray(self._weighted(blurred(left[:, None], blur))[:, 0])
 
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
         parameters = free.parameters(u)
         _, by_all = self._model.forces(parameters.membranes, parameters.coupling, True)
-        return blurred(free.chain(np.hstack((by_all, self._nuisance)), u), blur)[self.used]
+        return self._weighted(blurred(free.chain(np.hstack((by_all, self._nuisance)), u), blur))
+
+    def _weighted(self, columns: Array) -> Array:
+        return np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
+
+    def with_depth_error(self, parameters: Parameters) -> Misfit:
+        """The same misfit, with what the noise of the depth does to the force near these parameters."""
+        if self.trace.depths is None:
+            return self
+        errors = self.depth_errors(parameters)
+        left = self.forces(parameters) - self.trace.force
+        noise = spread(left[self.used])
+        weights = noise / np.sqrt(noise**2 + errors.var(axis=0)) if noise > 0 else np.ones(len(left))
+        return Misfit(self.trace, parameters, self.used, self.zero, DepthError(errors.mean(axis=0), weights))
+
+    def depth_errors(self, parameters: Parameters) -> Array:
+        """Draws (m, n) of the force, N, that the most likely depth leaves out: that of the true depth, less its own."""
+        depths = self.trace.depth[None, :] if self.trace.depths is None else self.trace.depths
+        p = parameters
+        own, _ = self._model.forces(p.membranes, p.coupling, False)
+        models = (TraceModel(p.needle, depth, self.trace.time) for depth in depths)
+        return np.array([model.forces(p.membranes, p.coupling, False)[0] for model in models]) - own
+
+
+@dataclass(frozen=True, eq=False)
+class DepthError:
+    """What the noise of the depth does to the force of each sample (n,). mean: N; weights: of a residual, at most 1."""
+
+    mean: Array
+    weights: Array
 
 
 def blurred(columns: Array, width: int) -> Array:

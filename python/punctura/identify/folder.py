@@ -28,6 +28,7 @@ from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
 from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
+from punctura.identify.rig import UNKNOWN, Rig
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
@@ -42,12 +43,13 @@ class Task:
     needle: Needle
     membranes: int | Literal["auto"] = "auto"
     reading: Reading = field(default_factory=Reading)
+    rig: Rig = UNKNOWN
 
     def key(self) -> TaskRecord:
         """What a result depends on, beside its file."""
         needle = [self.needle.diameter, self.needle.tip_angle]
         return {"needle": needle, "membranes": self.membranes, "reading": asdict(self.reading),
-                "punctura": punctura.__version__}  # fmt: skip
+                "rig": asdict(self.rig), "punctura": punctura.__version__}  # fmt: skip
 
 
 def identify_folder(
@@ -159,7 +161,7 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
     """The result of one trace, in a process of its own, and whether the next run shall try it again."""
     try:
         trace = read_as(path, task.reading)
-        told = identify(trace, task.needle, task.membranes).as_dict()
+        told = identify(trace, task.needle, task.membranes, rig=task.rig).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
         return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, ImportError)
     return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False

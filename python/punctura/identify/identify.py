@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from punctura.files.names import as_text
 from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
+from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
@@ -23,6 +24,7 @@ from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.records import IdentificationRecord
+from punctura.identify.rig import UNKNOWN, Rig, RigValue
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned
 from punctura.identify.uncertainty import Uncertainty
@@ -51,6 +53,7 @@ class Identification:
     candidates: tuple[Candidate, ...]  # the chosen model first
     effective_samples: float
     doubts: Doubts
+    rig: tuple[RigValue, ...] = ()  # the errors of the rig that the fit and its intervals take into account
 
     @property
     def parameters(self) -> Parameters:
@@ -91,6 +94,7 @@ class Identification:
                 for e in self.estimates
             ],
             "correlations": Uncertainty(self.fit).correlations.round(4).tolist(),
+            "rig": [asdict(value) for value in self.rig],
             "findings": [{"kind": f.kind, "text": f.text, "repaired": f.repaired} for f in self.trace.findings],
             "explained": self.doubts.as_dict(),
             "not_told": list(self.verdicts),
@@ -108,22 +112,26 @@ def identify(
     needle: Needle,
     membranes: int | Literal["auto"] = "auto",
     tell: Callable[[str], None] = lambda _: None,
+    rig: Rig = UNKNOWN,
 ) -> Identification:
     """Identifies membranes of a trace that was made with this needle.
 
     membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. tell: gets a word
-    about each step. Raises TraceError for a trace with a severe finding, and if no fit succeeds; ModuleNotFoundError.
+    about each step. rig: what is known of its sensors. Raises TraceError for a trace with a severe finding, and if no
+    fit succeeds; ModuleNotFoundError.
     """
     severe = [finding for finding in trace.findings if finding.severe]
     if severe:
         raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
     with one_thread("punctura.identify"):
-        return _identified(trace, needle, membranes, tell)
+        return _identified(trace, needle, membranes, tell, rig)
 
 
 def _identified(
-    trace: Trace, needle: Needle, membranes: int | Literal["auto"], tell: Callable[[str], None]
+    trace: Trace, needle: Needle, membranes: int | Literal["auto"], tell: Callable[[str], None], rig: Rig
 ) -> Identification:
+    trace, noise = with_quiet_depth(trace, rig.depth_noise)
+    known = [RigValue("depth_noise", noise, "m", rig.depth_noise is not None)] if noise else []
     segments = segment(trace)
     few = thinned(trace)
     all_used = len(few) == len(trace)
@@ -156,7 +164,7 @@ def _identified(
     doubt = doubts(trace, segments, final, choice.current.extensions)
     said = verdicts(found, trace, segments, few_fit, doubt.explained.ok)
     said = (*doubt.sentences, *said, *([MORE_OPTIMA] if more else []))
-    return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt)
+    return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
 
 
 def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:
@@ -164,7 +172,7 @@ def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> F
 
     Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
     """
-    misfit = Misfit(trace, few.parameters, zero=few.misfit.zero)
+    misfit = Misfit(trace, few.parameters, zero=few.misfit.zero).with_depth_error(few.parameters)
     ends = [Start(parameters) for parameters in (few.parameters, *few.others, *better)]
     return in_order(with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends))))
 

@@ -23,6 +23,15 @@ class ParameterRecord(TypedDict):
     identifiable: bool
 
 
+class RigRecord(TypedDict):
+    """An error of the rig that was taken into account, SI. Not stated: estimated from the trace."""
+
+    name: str
+    value: float
+    unit: str
+    stated: bool
+
+
 class FindingRecord(TypedDict):
     """Something unusual in the trace."""
 
@@ -90,6 +99,7 @@ class IdentificationRecord(TypedDict):
     needle: NeedleRecord
     parameters: list[ParameterRecord]
     correlations: list[list[float]]
+    rig: list[RigRecord]
     findings: list[FindingRecord]
     explained: ExplainedRecord
     not_told: list[str]
@@ -102,6 +112,7 @@ class TaskRecord(TypedDict):
     needle: list[float]
     membranes: int | Literal["auto"]
     reading: dict[str, object]  # trace/reading.py
+    rig: dict[str, float | None]  # rig.py
     punctura: str  # version
 
 

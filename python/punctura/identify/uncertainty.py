@@ -26,7 +26,7 @@ class Uncertainty:
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
         correlated = fit.noise.spread(inverse)
-        correlated += inverse @ _between_samples(fit) @ inverse
+        correlated += inverse @ (_between_samples(fit) + _of_depth(fit)) @ inverse
         plain = np.maximum(self.variance * np.diag(inverse), 1e-300)
         self.covariance = correlated + np.diag(np.maximum(plain - np.diag(correlated), 0.0))
         self.inflation = np.diag(self.covariance) / plain  # of each parameter's variance
@@ -36,6 +36,21 @@ class Uncertainty:
         """Correlations of the coordinates, (p, p)."""
         errors = np.sqrt(np.maximum(np.diag(self.covariance), 1e-300))  # 0 for a trace without noise
         return np.asarray(self.covariance / np.outer(errors, errors))
+
+
+def _of_depth(fit: Fit) -> Array:
+    """What adds to J^T V J (p, p), because neighbours share the error of a depth whose noise is smoothed.
+
+    What it does to a sample alone is part of the noise already, by the weights.
+    """
+    misfit = fit.misfit
+    if misfit.trace.depths is None:
+        return np.zeros((fit.jacobian.shape[1],) * 2)
+    errors = misfit.depth_errors(fit.parameters)
+    errors = (misfit.depth_error.weights * (errors - errors.mean(axis=0)))[:, misfit.used]
+    shared = fit.jacobian.T @ errors.T / np.sqrt(len(errors))
+    own = fit.jacobian.T @ (errors.var(axis=0)[:, None] * fit.jacobian)
+    return np.asarray(shared @ shared.T - own)
 
 
 def _between_samples(fit: Fit) -> Array:

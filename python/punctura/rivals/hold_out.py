@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from punctura import Needle
 from punctura.identify import Identification, Parameters, identify
+from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.fit import Misfit
 from punctura.one_thread import one_thread
 from punctura.rivals.fit import RivalFit, fit_rival
@@ -122,7 +123,7 @@ def _forces(known: Fitted, trace: Trace, shift: float, used: NDArray[np.bool_]) 
     """Title and force (n,), N, of each model along a trace whose depths are greater by `shift`, m."""
     at = replace(trace, depth=trace.depth - shift)
     p: Parameters = known.found.parameters
-    found = {"k06": (_title(known.found), Misfit(at, p).forces(p)[used])}
+    found = {"k06": (_title(known.found), Misfit(with_quiet_depth(at)[0], p).forces(p)[used])}
     path = path_of(at, segment(at))
     found |= {one.name: (one.title, resistance(one.layers, path)[used]) for one in known.rivals}
     return found | {REPEAT: ("no model: as measured before", _repeated(known.trace, at)[used])}

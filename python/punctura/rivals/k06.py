@@ -40,6 +40,7 @@ def fit_k06(trace: Trace, needle: Needle, known: Identification | None = None) -
     Needs SciPy. Raises TraceError.
     """
     found = known or identify(trace, needle)
+    trace = found.trace  # without the noise of the depth
     chosen = found.candidates[0]
     printed = next((one for one in found.candidates if not one.extensions), None)
     fits = [] if printed is None else [_fit(trace, PRINTED, "K06", printed)]

@@ -62,6 +62,7 @@ class Trace:
     time: Array | None = None
     source: str = ""
     findings: tuple[Finding, ...] = field(default=(), repr=False)
+    depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
 
     def __post_init__(self) -> None:
         for name in ("depth", "force", "time"):
@@ -90,7 +91,8 @@ class Trace:
     def __getitem__(self, which: slice | NDArray[Any]) -> Trace:
         """A part of the trace, by slice, mask or indices in ascending order."""
         time = None if self.time is None else self.time[which]
-        return replace(self, depth=self.depth[which], force=self.force[which], time=time)
+        depths = None if self.depths is None else self.depths[:, which]
+        return replace(self, depth=self.depth[which], force=self.force[which], time=time, depths=depths)
 
     @cached_property
     def strokes(self) -> NDArray[np.int64]:
