@@ -108,7 +108,7 @@ inline Shares shares(punctura::Scene scene, const Motion& motion) {
   const double one = 1 / static_cast<double>(motion.tip.size() * scene.membranes.size());
   for (std::size_t k = 0; k < motion.tip.size(); ++k) {
     insertion.step(punctura::to_vector(motion.tip[k]), punctura::to_vector(motion.axis[k]));
-    for (const auto& proxy : insertion.k06()->proxies()) switch (proxy.phase()) {
+    for (const auto& proxy : *insertion.k06()) switch (proxy.phase()) {
         case punctura::Phase::outside: share.outside += one; break;
         case punctura::Phase::sticking: share.sticking += one; break;
         case punctura::Phase::sliding_in: share.sliding_in += one; break;

@@ -42,7 +42,7 @@ inline void check_exact(punctura::Scene scene, const Motion& motion) {
   for (std::size_t k = 0; k < motion.tip.size(); ++k) {
     insertion.step(punctura::to_vector(motion.tip[k]), punctura::to_vector(motion.axis[k]));
     for (std::size_t i = 0; i < e_prev.size(); ++i) {
-      const auto& proxy = insertion.k06()->proxies()[i];
+      const auto& proxy = (*insertion.k06())[i];
       const punctura::Vector3d coupling = K * proxy.offset() + B * (proxy.offset() - e_prev[i]) / T;  // K06 (21)
       worst = std::max(worst, (proxy.force() - coupling).maxAbs());
       const double f = proxy.axial_force();

@@ -7,7 +7,7 @@
 namespace punctura::c {
 namespace {
 
-using InSpace = SceneInsertion::Wide::Proxies::value_type;  // of every scene; K06's membranes have K06's bits in it
+using InSpace = WideInsertion<double>::Proxies::value_type;  // of every scene; K06's membranes have K06's bits in it
 using Law = std::remove_cvref_t<decltype(std::declval<InSpace>().law())>;
 using Coupled = std::remove_cvref_t<decltype(std::declval<InSpace>().params().coupling)>;
 using OnALine = Proxy1d<Law, Coupled>;

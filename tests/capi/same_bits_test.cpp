@@ -69,7 +69,7 @@ TEST_CASE("C ABI: proxies on a line and in space give the forces of the core, bi
     const auto line = made<Proxy1dHandle>([&](auto** to) { return punctura_proxy1d_new(scene.get(), 0, to); });
     const auto space = made<Proxy3dHandle>([&](auto** to) { return punctura_proxy3d_new(scene.get(), 0, to); });
     const auto insertion = punctura::build_insertion(c.scene);
-    auto in_space = insertion.k06()->proxies()[0];
+    auto in_space = (*insertion.k06())[0];
     punctura::Proxy1d on_a_line(in_space.law(), in_space.params().coupling, in_space.solver());
     bool same = true;
     for (const Vector3d& p : c.positions) {

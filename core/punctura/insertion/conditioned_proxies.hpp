@@ -1,15 +1,17 @@
 // One proxy for each membrane behind one conditioning of the position. K06 Fig. 8
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
-#include "punctura/insertion/match_by_place.hpp"
 #include "punctura/model/storage.hpp"
 #include "punctura/model/words.hpp"
 #include "punctura/proxy/in_space.hpp"
@@ -26,24 +28,40 @@ enum class Direction : std::uint8_t {
 template <>
 inline constexpr std::array<std::string_view, 2> words_of<Direction>{"stylus", "motion"};
 
+/// Calls resume(now[i], before[j]) for each pair of elements at the same place (`same_place`). If several elements
+/// share a place, they are paired in their order. An element at a new place has no pair. It allocates no memory.
+template <typename Now, typename Before, typename Resume>
+void match_by_place(Now& now, const Before& before, Resume&& resume) noexcept {
+  for (auto one = now.begin(); one != now.end(); ++one) {
+    const auto here = [&](const auto& other) { return one->same_place(other); };
+    auto skip = std::count_if(now.begin(), one, here);
+    for (const auto& old : before)
+      if (here(old) && skip-- == 0) {
+        resume(*one, old);
+        break;
+      }
+  }
+}
+
 /// What all models of an insertion share: it conditions the position, steps one proxy for each membrane and adds their
 /// forces in the order of the membranes. A derived class fills `proxies_` in its constructor and then calls reset().
 ///
-/// Proxy: `step_finite(position, axis)` returns the force, N; also reset(), resume(), same_place(), phase(), tick() and
-/// state(), as Proxy3d has them.
-template <typename Proxy, typename Storage>
+/// Proxies: a vector of proxies, or a std::variant of two kinds of such vectors. A proxy has `step_finite(position,
+/// axis)`, which returns the force, N; also reset(), resume(), same_place(), phase(), tick() and state(), as those of
+/// Proxy3d.
+template <typename Scalar_, typename Proxies_, typename Storage>
 class ConditionedProxies {
  public:
-  using Scalar = typename Proxy::Scalar;
+  using Scalar = Scalar_;
   using Vector = Vector3<Scalar>;
-  using Proxies = typename Storage::template Membranes<Proxy>;
+  using Proxies = Proxies_;
   using StoredIn = Storage;
 
   /// Clears all state. A proxy that starts inside a membrane stays barred until it has been outside, in front.
   void reset() noexcept {
     conditioner_.reset();
     if (from_motion_) from_motion_->reset();
-    for (Proxy& proxy : proxies_) proxy.reset();
+    each(proxies_, [](auto& proxy) { proxy.reset(); });
     tip_.setZero();
     force_.setZero();
   }
@@ -54,12 +72,16 @@ class ConditionedProxies {
   /// Each membrane takes over the state of the membrane at the same place, also if its number differs. If several
   /// membranes are at one place, the first takes over from the first, the second from the second. A membrane at a new
   /// place starts without history.
-  template <typename OtherProxy>
-  void resume(ConditionedProxies<OtherProxy, Storage>& previous) noexcept {
+  template <typename Others>
+  void resume(ConditionedProxies<Scalar, Others, Storage>& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) std::swap(*from_motion_, *previous.from_motion_);
     tip_ = previous.tip_;
-    match_by_place(proxies_, previous.proxies_, [](Proxy& proxy, const OtherProxy& old) { proxy.resume(old); });
+    visit(proxies_, [&](auto& now) {
+      visit(previous.proxies_, [&](auto& before) {
+        match_by_place(now, before, [](auto& proxy, const auto& old) { proxy.resume(old); });
+      });
+    });
   }
 
   /// One tick. position: measured, m. axis: the needle's unit direction. Returns the force on the device, N.
@@ -67,22 +89,13 @@ class ConditionedProxies {
   /// It returns NaN, and the state does not change, if position is NaN or beyond 1000 km. The same holds if axis is
   /// used and not finite.
   Vector step(const Vector& position, const Vector& axis) noexcept {
-    const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
-    if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
-    const bool first = !conditioner_.started();
-    const Vector tip = conditioner_.step(position);
-    const Vector direction = from_motion_ ? from_motion_->step(tip) : axis;
-    if (sub_steps_ > 1 && !first) step_between(tip, direction);
-    tip_ = tip;
-    Vector force;
-    for (Proxy& proxy : proxies_) force += proxy.step_finite(tip, direction);
-    return force_ = force;
+    return visit(proxies_, [&](auto& proxies) { return step(proxies, position, axis); });
   }
 
   static void archive(auto& self, auto& state) {
     Conditioner::archive(self.conditioner_, state);
     if (self.from_motion_) Tracker::archive(*self.from_motion_, state);
-    for (auto& proxy : self.proxies_) Proxy::archive(proxy, state);
+    each(self.proxies_, [&](auto& proxy) { std::remove_cvref_t<decltype(proxy)>::archive(proxy, state); });
     state.numbers(self.tip_, self.force_);
   }
   void describe(auto& parameters) const {
@@ -90,24 +103,41 @@ class ConditionedProxies {
     parameters.flag(uses_axis());
     if (from_motion_) from_motion_->describe(parameters);
     parameters.index(sub_steps_, 0);
-    for (const Proxy& proxy : proxies_) proxy.describe(parameters);
+    each(proxies_, [&](const auto& proxy) { proxy.describe(parameters); });
   }
 
   const Vector& tip() const noexcept { return tip_; }        ///< the conditioned position, m
   const Vector& force() const noexcept { return force_; }    ///< the sum of all membranes, N
   bool uses_axis() const noexcept { return !from_motion_; }  ///< whether step() reads the axis
   const Proxies& proxies() const noexcept { return proxies_; }
-  std::size_t size() const noexcept { return proxies_.size(); }  ///< the number of membranes
+  std::size_t size() const noexcept {  ///< the number of membranes
+    return visit(proxies_, [](const auto& proxies) { return proxies.size(); });
+  }
   /// The result of the last tick at membrane i.
-  SpaceTick<Scalar> tick(std::size_t i) const noexcept { return proxies_[i].tick(); }
+  SpaceTick<Scalar> tick(std::size_t i) const noexcept {
+    return visit(proxies_, [i](const auto& proxies) { return proxies[i].tick(); });
+  }
   /// n.b of the needle in membrane i, constant while the needle is inside.
-  Scalar cos_beta(std::size_t i) const noexcept { return proxies_[i].state().cos_beta; }
+  Scalar cos_beta(std::size_t i) const noexcept {
+    return visit(proxies_, [i](const auto& proxies) { return proxies[i].state().cos_beta; });
+  }
 
   /// Whether the tip is in front of every membrane. Forces may be switched on only in this state.
   bool outside() const noexcept {
-    for (const Proxy& proxy : proxies_)
-      if (proxy.phase() != Phase::outside) return false;
-    return true;
+    bool all = true;
+    each(proxies_, [&](const auto& proxy) { all = all && proxy.phase() == Phase::outside; });
+    return all;
+  }
+
+  /// Calls visitor(proxies) with the vector in use, and returns its result. Of two kinds, one comparison finds it.
+  template <typename Visitor>
+  static decltype(auto) visit(auto& proxies, Visitor&& visitor) {
+    if constexpr (requires { proxies.size(); })
+      return visitor(proxies);
+    else if (auto* first = std::get_if<0>(&proxies))
+      return visitor(*first);
+    else
+      return visitor(*std::get_if<1>(&proxies));
   }
 
  protected:
@@ -117,20 +147,47 @@ class ConditionedProxies {
       : conditioner_(conditioning, low_pass_hz, encoder_step, period), sub_steps_(sub_steps) {
     if (direction == Direction::motion) from_motion_.emplace(period);
   }
+  /// Goes on from an insertion with one of these kinds of proxies.
+  template <typename One>
+  explicit ConditionedProxies(ConditionedProxies<Scalar, One, Storage>&& one)
+      : proxies_(std::move(one.proxies_)),
+        conditioner_(std::move(one.conditioner_)),
+        from_motion_(std::move(one.from_motion_)),
+        sub_steps_(one.sub_steps_),
+        tip_(one.tip_),
+        force_(one.force_) {}
 
   Proxies proxies_;
 
  private:
-  template <typename, typename>
+  template <typename, typename, typename>
   friend class ConditionedProxies;
+  static void each(auto& proxies, auto&& act) {
+    visit(proxies, [&](auto& all) {
+      for (auto& proxy : all) act(proxy);
+    });
+  }
   using Conditioner = PositionConditioner<Scalar, Storage>;
   using Tracker = EntryDirection<Scalar, Storage>;
 
+  /// The kind of the proxies is chosen once, in front of the tick.
+  Vector step(auto& proxies, const Vector& position, const Vector& axis) noexcept {
+    const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
+    const bool first = !conditioner_.started();
+    const Vector tip = conditioner_.step(position);
+    const Vector direction = from_motion_ ? from_motion_->step(tip) : axis;
+    if (sub_steps_ > 1 && !first) step_between(proxies, tip, direction);
+    tip_ = tip;
+    Vector force;
+    for (auto& proxy : proxies) force += proxy.step_finite(tip, direction);
+    return force_ = force;
+  }
   /// The sub-steps of a tick without the last one, from the last tip to this one (m).
-  void step_between(const Vector& tip, const Vector& direction) noexcept {
+  void step_between(auto& proxies, const Vector& tip, const Vector& direction) noexcept {
     for (std::uint32_t i = 1; i < sub_steps_; ++i) {
       const Vector between = tip_ + (static_cast<Scalar>(i) / static_cast<Scalar>(sub_steps_)) * (tip - tip_);
-      for (Proxy& proxy : proxies_) proxy.step_finite(between, direction);
+      for (auto& proxy : proxies) proxy.step_finite(between, direction);
     }
   }
 

@@ -26,7 +26,8 @@ struct SiteOf {
 /// machine without a heap. FixedStorage aborts the program if there are more sites, or a higher rate, than it has
 /// room for.
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>, typename Storage = HeapStorage>
-class InsertionOf : public ConditionedProxies<Proxy3d<L, C>, Storage> {
+class InsertionOf
+    : public ConditionedProxies<typename L::Scalar, typename Storage::template Membranes<Proxy3d<L, C>>, Storage> {
  public:
   using Scalar = typename L::Scalar;
 
@@ -36,8 +37,7 @@ class InsertionOf : public ConditionedProxies<Proxy3d<L, C>, Storage> {
   InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
               Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
               Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0, std::uint32_t sub_steps = 1)
-      : ConditionedProxies<Proxy3d<L, C>, Storage>(period, low_pass_hz, direction, conditioning, encoder_step,
-                                                   sub_steps) {
+      : InsertionOf::ConditionedProxies(period, low_pass_hz, direction, conditioning, encoder_step, sub_steps) {
     this->proxies_.reserve(sites.size());
     for (const auto& site : sites)
       this->proxies_.emplace_back(site.law, site.point, site.inward_normal, coupling, solver);

@@ -9,7 +9,7 @@
 
 namespace punctura {
 
-template <typename Proxy, typename Storage>
+template <typename Scalar, typename Proxies, typename Storage>
 class ConditionedProxies;
 
 /// The proxy of K06 Fig. 7. Inside, it moves only along b, the needle's direction at entry, and friction acts only
@@ -117,7 +117,7 @@ class Proxy3d {
   }
 
  private:
-  template <typename, typename>
+  template <typename, typename, typename>
   friend class ConditionedProxies;  // it checks p and axis once for all membranes
 
   /// step() without the check of p and axis.

@@ -17,7 +17,7 @@ namespace punctura {
 /// The force of rivals at the places of a scene's membranes. Conditioning and sub-steps are those of K06.
 ///
 /// `ServoStepOf<RivalInsertion>` is a whole tick: the same gate and the same force limits as for K06.
-class RivalInsertion : public ConditionedProxies<RivalProxy, HeapStorage> {
+class RivalInsertion : public ConditionedProxies<double, std::vector<RivalProxy>, HeapStorage> {
  public:
   /// rivals: one for each membrane of a scene that has passed check(), or one for all.
   RivalInsertion(const Scene& scene, std::span<const AnyRival> rivals)

@@ -12,7 +12,7 @@
 
 namespace punctura {
 
-/// Whether a scene has no law and no coupling beyond K06. Such a scene runs the smaller model (BasicInsertion::K06).
+/// Whether a scene has no law and no coupling beyond K06. Such a scene runs the smaller model (K06Insertion).
 inline bool is_k06(const Scene& scene) noexcept {
   for (const MaxwellBranch& branch : scene.relaxation)
     if (branch.stiffness != 0) return false;
@@ -90,7 +90,7 @@ auto scene_law_of(const Scene& scene) {
 namespace detail {
 /// The model of a scene that has passed check(), also of one of K06, with the laws that hold everything.
 template <typename Scalar>
-typename BasicInsertion<Scalar>::Wide wide_model_of(const Scene& scene) {
+WideInsertion<Scalar> wide_model_of(const Scene& scene) {
   return insertion_of<Scalar>(scene, relaxing_coupling_of<Scalar>(scene), scene_law_of<Scalar>(scene));
 }
 /// The model of a scene that has passed check().

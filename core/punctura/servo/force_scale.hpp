@@ -19,22 +19,18 @@ namespace punctura {
 /// to 18 degrees to the first membrane's normal: its friction is at most 1 / cos(18 degrees) = 1.05 times as large.
 inline constexpr double automatic_share = 0.95;
 
-/// The largest friction along a needle, N, of all membranes that hold it together, on its way in and on its way out.
-///
-/// The needle goes straight through all membranes, along the inward normal of the first. A membrane that such a needle
-/// does not enter from the front is left out. For a law with memory, the membrane is untouched. Sideways, only the
-/// coupling limits the force; this is not included.
-template <typename L, typename C, typename Storage>
-double largest_force(const InsertionOf<L, C, Storage>& insertion) {
-  using Scalar = typename L::Scalar;
-  const auto& first = insertion.proxies()[0].params();
+namespace detail {
+template <typename Proxies>
+double largest_force(const Proxies& proxies) {
+  const auto& first = proxies[0].params();
+  using Scalar = typename std::remove_cvref_t<decltype(first.law)>::Scalar;
   struct Layer {
     PiecesOf<std::remove_cvref_t<decltype(first.law)>> pieces;
     double surface;  // m along the needle, from the first membrane's surface
   };
   std::vector<Layer> layers;
   std::vector<double> depths;  // of all breaks, m along the needle
-  for (const auto& proxy : insertion.proxies()) {
+  for (const auto& proxy : proxies) {
     const auto& membrane = proxy.params();
     const Scalar cosine = membrane.n.dot(first.n);
     if (!(cosine >= grazing_cosine<Scalar>)) continue;
@@ -74,10 +70,20 @@ double largest_force(const InsertionOf<L, C, Storage>& insertion) {
   }
   return largest;
 }
+}  // namespace detail
 
+/// The largest friction along a needle, N, of all membranes that hold it together, on its way in and on its way out.
+///
+/// The needle goes straight through all membranes, along the inward normal of the first. A membrane that such a needle
+/// does not enter from the front is left out. For a law with memory, the membrane is untouched. Sideways, only the
+/// coupling limits the force; this is not included.
+template <typename L, typename C, typename Storage>
+double largest_force(const InsertionOf<L, C, Storage>& insertion) {
+  return detail::largest_force(insertion.proxies());
+}
 template <typename Scalar>
 double largest_force(const BasicInsertion<Scalar>& insertion) {
-  return insertion.visit([](const auto& model) { return largest_force(model); });
+  return insertion.visit(insertion.proxies(), [](const auto& proxies) { return detail::largest_force(proxies); });
 }
 
 /// The largest force of a model without bands, N: of a needle that goes straight in at 20 mm/s, and comes back.

@@ -57,7 +57,7 @@ TEST_CASE("with Direction::motion, b is the direction of the motion and the styl
   CHECK_FALSE(insertion.uses_axis());
   const Vector3d way = Vector3d(1, -2, 0.5).normalized();
   for (int k = 0; k < 1600; ++k) insertion.step(Vector3d(0, 1e-3, 0) + 10e-3 / 1600.0 * k * way, Vector3d(0, 1, 0));
-  CHECK((insertion.k06()->proxies()[0].direction() - way).norm() < 1e-9);
+  CHECK(((*insertion.k06())[0].direction() - way).norm() < 1e-9);
   CHECK(insertion.force().norm() > 0.1);
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("a motion that grazes the membrane gives no force") {
     insertion.step(Vector3d(0, 1e-4, 0) + 10e-3 / 1600.0 * k * way, down);
     REQUIRE(insertion.force() == Vector3d::Zero());
   }
-  CHECK(insertion.k06()->proxies()[0].phase() == Phase::barred);
+  CHECK((*insertion.k06())[0].phase() == Phase::barred);
 }
 
 TEST_CASE("outside() is true only in front of every membrane") {

@@ -113,7 +113,7 @@ TEST_CASE("the largest force is that of all membranes together, at the worst dep
     double strongest = 0;
     for (double s = -1e-3; s < 0.06; s += 2e-6) {  // along the first membrane's normal
       double in = 0, out = 0;
-      for (const auto& proxy : insertion.k06()->proxies()) {
+      for (const auto& proxy : *insertion.k06()) {
         const auto& p = proxy.params();
         const double cosine = -p.n.y();
         const auto band = p.law.pieces(cosine).band(s - (p.a.y() * p.n.y()) / cosine);

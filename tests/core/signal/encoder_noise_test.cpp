@@ -44,7 +44,7 @@ Vector3d rest_noise(const Scene& scene, Dither kind, std::array<bool, 3> axes = 
       if (axes[i]) p[i] += d;
     }
     const Vector3d now = insertion.step(p, down);
-    CHECK(insertion.k06()->proxies()[0].phase() == Phase::sticking);
+    CHECK((*insertion.k06())[0].phase() == Phase::sticking);
     if (k >= 800)
       for (std::size_t i = 0; i < 3; ++i) square[i] += (now[i] - previous[i]) * (now[i] - previous[i]) / 2400;
     previous = now;

@@ -222,7 +222,7 @@ TEST_CASE("forged bytes cause no invalid memory access, and impossible phases, d
   }
   CHECK(taken > 100);
 
-  const Proxy3d<ThickLaw>& inside_one = insertion.k06()->proxies()[0];
+  const Proxy3d<ThickLaw>& inside_one = (*insertion.k06())[0];
   REQUIRE(inside(inside_one.phase()));
   const auto with = [&](std::size_t number,
                         double value) {  // the numbers behind started and phase: p, e, f, b, cos_beta
@@ -267,7 +267,7 @@ TEST_CASE("a position beyond 1000 km gives NaN and changes nothing") {
     insertion.step({0, 1e-3 - 1e-4 * k, 0}, {0, -1, 0});
     line.step(1e-4 * k);
   }
-  Proxy3d space = insertion.k06()->proxies()[0];
+  Proxy3d space = (*insertion.k06())[0];
   const auto kept = save_state(insertion), kept_line = save_state(line), kept_space = save_state(space);
   for (const double far : {1.1e6, -1.7e308, std::numeric_limits<double>::infinity()}) {
     CHECK(std::isnan(insertion.step({far, 0, 0}, {0, -1, 0}).x()));

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "punctura/insertion/match_by_place.hpp"
+#include "punctura/insertion/conditioned_proxies.hpp"
 #include "punctura/lab/events/contact.hpp"
 #include "punctura/scene/build.hpp"
 
