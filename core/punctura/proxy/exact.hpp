@@ -60,8 +60,9 @@ struct Exact {
     state.phase = select(left, PhaseOf<Scalar>(Phase::outside), state.phase);
     const auto stays = is_inside && !left;
     if (!any(stays)) return settle_outside(params, state, p);
-    if (all(stays)) return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
-    return settle_each(params, state, p, p_prev, f_star, friction, s, stays);
+    if constexpr (Lanes<Scalar>)
+      if (!all(stays)) return settle_each(params, state, p, p_prev, f_star, friction, s, stays);
+    return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
   }
 };
 

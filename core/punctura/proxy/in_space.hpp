@@ -191,7 +191,7 @@ template <typename L, typename C, typename Scalar>
 }
 
 /// Ends a tick in which some lanes are inside and some are not.
-template <typename L, typename C, typename Scalar>
+template <typename L, typename C, Lanes Scalar>
 constexpr SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceState<L, C>& state,
                                         const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
                                         const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth,

@@ -45,12 +45,13 @@ struct Paper {
     const auto is_inside = inside(state.phase);
     if (!any(is_inside)) return settle_outside(params, state, p);  // K06 (41): f = 0; (25)
 
-    const Vector f_star = c.holding_force(p, p_prev, state.e, state.coupling);                // K06 (38), (41): f*
-    const Scalar s = n.dot(q_star - a) / state.cos_beta;                                      // K06 (41): q* along b
-    const Scalar f_star_b = state.b.dot(f_star);                                              // K06 (41): b.f*
-    const Friction<Scalar> friction = clamped_friction(state.pieces.band(s), f_star_b);       // K06 (32), (41): b.f
-    if (all(is_inside)) return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
-    return settle_each(params, state, p, p_prev, f_star, friction, s, is_inside);
+    const Vector f_star = c.holding_force(p, p_prev, state.e, state.coupling);           // K06 (38), (41): f*
+    const Scalar s = n.dot(q_star - a) / state.cos_beta;                                 // K06 (41): q* along b
+    const Scalar f_star_b = state.b.dot(f_star);                                         // K06 (41): b.f*
+    const Friction<Scalar> friction = clamped_friction(state.pieces.band(s), f_star_b);  // K06 (32), (41): b.f
+    if constexpr (Lanes<Scalar>)
+      if (!all(is_inside)) return settle_each(params, state, p, p_prev, f_star, friction, s, is_inside);
+    return settle_inside(params, state, p, p_prev, f_star, friction, s);  // K06 (39), (25)
   }
 };
 
