@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterator
 from typing import Protocol
 
@@ -10,17 +11,18 @@ from pydantic import BaseModel
 
 from punctura import Phase, Scene
 from punctura._core import Fault
+from punctura.defects import explain
 from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
 from punctura.studio.estimating import Estimator
 from punctura.studio.fault_words import fault_words
-from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import encode_ticks
-from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent
+from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent, Notice
 from punctura.ticks import COMMAND_SCENE, FIELDS, Ticks
+from punctura.ticks.files import CsvOutput
 
 MOST_TICKS = 4096  # in one frame
 LAWS_EVERY_S = 0.1
@@ -175,3 +177,43 @@ def _without_absent(piece: Ticks) -> Ticks:
     if count == piece.membrane_count:
         return piece
     return piece.replace(**{name: piece[name][:, :count] for name in piece if FIELDS[name].per_membrane})
+
+
+class KeptTicks:
+    """The worker writes, any thread reads. They stay until the next fault, also after a reset and in other runs."""
+
+    def __init__(self) -> None:
+        self._ticks: Ticks | None = None
+
+    def keep(self, ticks: Ticks) -> int:
+        """Returns the number of ticks. No ticks leave the earlier ones."""
+        if len(ticks):
+            self._ticks = ticks
+        return len(ticks)
+
+    def csv(self) -> tuple[str, bytes] | None:
+        """A name for the file, and its bytes; None if there was no fault."""
+        ticks = self._ticks
+        if ticks is None:
+            return None
+        table, out = ticks.to_arrow(), io.BytesIO()
+        CsvOutput(out, table.schema).write(table)
+        return f"fault-at-tick-{int(ticks.tick[-1])}.csv", out.getvalue()
+
+
+class Defects:
+    """Tells each defect once, not sixty times a second."""
+
+    def __init__(self, out: Publisher) -> None:
+        self._out = out
+        self._last = ""
+
+    def guard(self, step: Callable[[], object]) -> None:
+        """Calls `step`; if it raises, the pages get a notice."""
+        try:
+            step()
+        except Exception as error:
+            text = explain(error)
+            if text != self._last:
+                self._last = text
+                self._out.send(Notice(text=text))

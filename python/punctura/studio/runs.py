@@ -8,16 +8,14 @@ from punctura.record import RecorderStatus
 from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
-from punctura.studio.defects import Defects
 from punctura.studio.estimating import no_estimate
 from punctura.studio.fault_words import STILL_OFF
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
 from punctura.studio.heard import Heard
 from punctura.studio.jobs import Jobs
-from punctura.studio.kept_ticks import KeptTicks
 from punctura.studio.loaded import Loaded
-from punctura.studio.pump import Publisher, Pump, no_fault
+from punctura.studio.pump import Defects, KeptTicks, Publisher, Pump, no_fault
 from punctura.studio.run import Bench, Run, Settings
 from punctura.studio.shelf import Shelf
 from punctura.studio.takes import Takes

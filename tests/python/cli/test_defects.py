@@ -15,8 +15,8 @@ from punctura.cli import _app
 from punctura.cli._status import DEFECT
 from punctura.defects import explain, is_defect, log_file
 from punctura.live import DeviceError
-from punctura.studio.defects import Defects
 from punctura.studio.names import safe_name
+from punctura.studio.pump import Defects
 from punctura.ticks.files import save
 from waiting import PATIENCE_S, wait_until
 
