@@ -1,11 +1,14 @@
-"""A queue of jobs for one thread, which does them one after the other."""
+"""The worker's queue of jobs, and the threads that finish recordings meanwhile."""
 
 from __future__ import annotations
 
 import queue
+import threading
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeVar
+
+from punctura.record import Recorder, RecorderStatus
 
 T = TypeVar("T")
 
@@ -42,3 +45,20 @@ class Jobs:
         except queue.Empty:
             return
         job()
+
+
+class Takes:
+    """`finish` returns at once; `wait` returns when all are done."""
+
+    def __init__(self) -> None:
+        self._threads: list[threading.Thread] = []
+
+    def finish(self, recorder: Recorder, then: Callable[[RecorderStatus], None]) -> None:
+        """Finishes the recording of a stopped loop in a new thread, which then calls `then`."""
+        thread = threading.Thread(target=lambda: then(recorder.finish()), name="punctura-finish")
+        self._threads = [t for t in self._threads if t.is_alive()] + [thread]
+        thread.start()
+
+    def wait(self) -> None:
+        for thread in self._threads:
+            thread.join()

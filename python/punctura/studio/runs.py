@@ -13,12 +13,11 @@ from punctura.studio.fault_words import STILL_OFF
 from punctura.studio.hand import Hand, Pose
 from punctura.studio.health import no_recording
 from punctura.studio.heard import Heard
-from punctura.studio.jobs import Jobs
+from punctura.studio.jobs import Jobs, Takes
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Defects, KeptTicks, Publisher, Pump, no_fault
 from punctura.studio.run import Bench, Run, Settings
 from punctura.studio.shelf import Shelf
-from punctura.studio.takes import Takes
 from punctura.studio.view import scene_message
 from punctura.studio.wire.messages import Notice
 
