@@ -9,7 +9,7 @@ from punctura.errors import sentence_of
 from punctura.exercise import Attempt, Exercise, ResultStore
 from punctura.exercise.result import Status
 from punctura.studio.activity import Outcome
-from punctura.studio.heard import Heard
+from punctura.studio.hand import Heard
 from punctura.studio.wire.messages import ExerciseStatus
 from punctura.ticks import Ticks
 

@@ -1,15 +1,17 @@
-"""The simulated hand: follows a target from the page, strokes, or a recorded motion. Only the worker calls it."""
+"""The simulated hand and thumb, and when the page that moves them was heard."""
 
 from __future__ import annotations
 
 import math
+import time
+from collections import deque
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from punctura import Scene
-from punctura._core import Device, SimulatedDevice, resting_pose
+from punctura._core import Device, ServoLoop, SimulatedDevice, resting_pose
 from punctura.live import stroke_ends
 
 __all__ = ["LEAD_S", "REST_SHARE", "Hand", "Mode", "Pose", "resting_pose"]
@@ -129,3 +131,51 @@ def _eased(u: Array) -> Array:
 
 def _triple(v: Array) -> Triple:
     return float(v[0]), float(v[1]), float(v[2])
+
+
+HOLD_S = 1.0  # a page that still pushes says so more often
+
+
+class SimulatedThumb:
+    """Pushes with the force that the page last asked for, and lets go if the page falls silent."""
+
+    def __init__(self) -> None:
+        self._until = math.inf
+
+    def push(self, loop: ServoLoop, force: float, now: float) -> None:
+        """force: N, 0 to 15. now: s, on the clock of `turn`."""
+        loop.push_plunger(force)
+        self._until = now + HOLD_S if force > 0 else math.inf
+
+    def turn(self, loop: ServoLoop, now: float) -> None:
+        if now >= self._until:
+            self.push(loop, 0.0, now)
+
+
+KEPT = 4096  # words; a page sends at most some hundred a second
+
+
+class Heard:
+    """A page that says that it is awake is late when it is silent. One that never says so is never late."""
+
+    def __init__(self) -> None:
+        self._words: deque[float] = deque(maxlen=KEPT)  # time.monotonic()
+
+    def forget(self) -> None:
+        """A new run: its page must say first that it is awake."""
+        self._words.clear()
+
+    def hear(self, awake: bool = False) -> None:
+        """From any thread: a word of the page. awake: it says that it is awake, and will go on to do so."""
+        if awake or self._words:
+            self._words.append(time.monotonic())
+
+    def age(self, times: npt.NDArray[np.float64], now: float) -> npt.NDArray[np.float64]:
+        """Time since the last word before each tick, s; 0 before the first word. times: of the ticks up to `now`, s."""
+        words = np.array(list(self._words), np.float64)
+        if len(words) == 0:
+            return np.zeros(len(times))
+        at = now - (times[-1] - times)
+        last = np.searchsorted(words, at, side="right") - 1
+        age: npt.NDArray[np.float64] = np.where(last >= 0, at - words[np.maximum(last, 0)], 0.0)
+        return age

@@ -14,6 +14,7 @@ from typing import TypeVar
 from punctura.exercise import ResultStore
 from punctura.studio.catalog import Exercises
 from punctura.studio.experts import Experts
+from punctura.studio.hand import SimulatedThumb
 from punctura.studio.health import no_ticks, recording_status, status_of
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Publisher
@@ -21,7 +22,6 @@ from punctura.studio.rounds import Rounds
 from punctura.studio.run import Run, Settings
 from punctura.studio.runs import Runs
 from punctura.studio.shelf import Shelf
-from punctura.studio.thumb import SimulatedThumb
 from punctura.studio.wire.messages import Notice
 from punctura.studio.wire.requests import Target
 

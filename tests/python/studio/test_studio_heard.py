@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from punctura.studio import heard as module
-from punctura.studio.heard import Heard
+from punctura.studio import hand as module
+from punctura.studio.hand import Heard
 
 
 @pytest.fixture
