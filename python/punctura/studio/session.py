@@ -5,12 +5,14 @@ A tick runs on the device's thread and never waits for this one.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TypeVar
 
+from punctura._core import Device, ReplayDevice
 from punctura.exercise import ResultStore
 from punctura.studio.catalog import Exercises
 from punctura.studio.experts import Experts
@@ -18,7 +20,6 @@ from punctura.studio.hand import SimulatedThumb
 from punctura.studio.health import no_ticks, recording_status, status_of
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Publisher
-from punctura.studio.rounds import Rounds
 from punctura.studio.run import Run, Settings
 from punctura.studio.runs import Runs
 from punctura.studio.shelf import Shelf
@@ -156,3 +157,22 @@ class Session(Runs):
         self.out.send(status_of(self.run, self.pump.lost, self.arming.armed, self.hand.mode, self.compare))
         if self.run.recorder and self.recording:
             self.out.send(recording_status(self.recording, self.run))
+
+
+REST_S = 2.0  # between two rounds
+
+
+class Rounds:
+    """A device that plays a recorded motion plays it again after a rest."""
+
+    def __init__(self) -> None:
+        self._over_at = math.inf
+
+    def due(self, device: Device, recording: bool, now: float) -> bool:
+        """Whether the next round must begin. recording: a run that is recorded is not repeated."""
+        over = isinstance(device, ReplayDevice) and device.finished and not recording
+        self._over_at = min(self._over_at, now) if over else math.inf
+        if now - self._over_at < REST_S:
+            return False
+        self._over_at = math.inf
+        return True

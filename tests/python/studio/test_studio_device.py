@@ -100,7 +100,7 @@ def playing(folder):
 
 
 def test_a_recorded_motion_goes_round_and_its_hand_is_left_alone(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.studio.rounds.REST_S", 0.1)
+    monkeypatch.setattr("punctura.studio.session.REST_S", 0.1)
     with playing(tmp_path) as (_, page):
         page.wait(lambda: page.last)
         assert "recorded" in page.of("hello")[0]["device"]["model"]
