@@ -66,7 +66,7 @@ def write_data(folder: Path) -> None:
     from punctura import __version__
     from punctura._core import Fault
     from punctura.scene import scene_json_schema, scene_names
-    from punctura.studio.fault_words import STILL_OFF, fault_words
+    from punctura.studio.health import STILL_OFF, fault_words
     from punctura.studio.loaded import from_name
     from punctura.studio.wire.messages import PROTOCOL
 

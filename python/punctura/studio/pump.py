@@ -15,7 +15,7 @@ from punctura.defects import explain
 from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
 from punctura.studio.estimating import Estimator
-from punctura.studio.fault_words import fault_words
+from punctura.studio.health import fault_words
 from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve

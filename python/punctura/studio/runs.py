@@ -9,9 +9,8 @@ from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
 from punctura.studio.estimating import no_estimate
-from punctura.studio.fault_words import STILL_OFF
 from punctura.studio.hand import Hand, Heard, Pose
-from punctura.studio.health import no_recording
+from punctura.studio.health import STILL_OFF, no_recording
 from punctura.studio.jobs import Jobs, Takes
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Defects, KeptTicks, Publisher, Pump, no_fault

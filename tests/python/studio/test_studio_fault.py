@@ -6,7 +6,7 @@ import io
 import numpy as np
 import pytest
 from punctura._core import Fault
-from punctura.studio.fault_words import fault_words
+from punctura.studio.health import fault_words
 
 
 @pytest.mark.parametrize("fault", [fault for fault in Fault if fault is not Fault.none])
