@@ -34,9 +34,8 @@ from punctura.scene import scene_names, scene_text
 from punctura.simulation import Target
 from punctura.studio.compare import OtherSolver
 from punctura.studio.estimating import Estimator
-from punctura.studio.laws import law_curves
 from punctura.studio.loaded import from_text
-from punctura.studio.view import scene_view
+from punctura.studio.view import law_curves, scene_view
 from punctura.studio.wire.frames import encode_ticks
 from punctura.studio.wire.messages import MembraneEvent
 from punctura.ticks import Ticks

@@ -16,8 +16,8 @@ from punctura.events import EventFinder
 from punctura.studio.compare import OtherSolver
 from punctura.studio.estimating import Estimator
 from punctura.studio.health import fault_words
-from punctura.studio.laws import TURN, Vector, law_curves, obliquities
 from punctura.studio.run import Run
+from punctura.studio.view import TURN, Vector, law_curves, obliquities
 from punctura.studio.wire.common import LawCurve
 from punctura.studio.wire.frames import encode_ticks
 from punctura.studio.wire.messages import FaultMessage, LawsMessage, MembraneEvent, Notice

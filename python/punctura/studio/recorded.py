@@ -15,10 +15,9 @@ from punctura.errors import ConfigurationError
 from punctura.events import find_events
 from punctura.record import Recording
 from punctura.record.columns import ticks_of
-from punctura.studio.laws import law_curves, obliquities
 from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
-from punctura.studio.view import scene_view
+from punctura.studio.view import law_curves, obliquities, scene_view
 from punctura.studio.wire.common import LawCurve, Part, SceneView
 from punctura.studio.wire.frames import encode_ticks
 from punctura.studio.wire.messages import MembraneEvent

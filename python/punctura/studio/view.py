@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+import numpy.typing as npt
 
 from punctura import Scene, _core
-from punctura.studio.laws import law_curves, obliquities
+from punctura._core import obliquities
 from punctura.studio.loaded import Loaded
 from punctura.studio.run import Run
 from punctura.studio.wire.common import LawCurve, MembraneView, SceneView, SyringeView
 from punctura.studio.wire.messages import SceneMessage
+
+__all__ = ["TURN", "Vector", "law_curves", "obliquities"]
+
+TURN = math.radians(0.5)  # smaller changes of direction do not update the curves
+
+Vector = npt.NDArray[np.float64]
+
+
+def law_curves(scene: Scene, obliquities: npt.ArrayLike) -> list[LawCurve]:
+    """One curve per membrane. obliquities (m,): rad."""
+    angles = np.asarray(obliquities, float)
+    return [LawCurve(**_core.law_curve(scene, i, float(angle))) for i, angle in enumerate(angles)]
 
 
 def scene_view(

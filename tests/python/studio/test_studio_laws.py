@@ -5,7 +5,7 @@ import math
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.studio.laws import law_curves, obliquities
+from punctura.studio.view import law_curves, obliquities
 
 STEEPEST = math.radians(85)
 THIN = pn.load_scene("k06-fig10")
