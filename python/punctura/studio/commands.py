@@ -14,8 +14,8 @@ from punctura.exercise.course import need_membranes
 from punctura.live import room_note
 from punctura.record import RecorderStatus, open_recording
 from punctura.scene import scene_names
+from punctura.studio.activity import ExerciseActivity
 from punctura.studio.catalog import DRAFT
-from punctura.studio.exercise_activity import ExerciseActivity
 from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, problem_parts
 from punctura.studio.making import made_of, make
 from punctura.studio.own_exercises import NameExists

@@ -5,7 +5,7 @@ from punctura import load_scene
 from punctura._core import SimulatedDevice
 from punctura.exercise import ResultStore, load_exercise
 from punctura.simulation import RecordedMotion
-from punctura.studio.exercise_activity import ExerciseActivity
+from punctura.studio.activity import ExerciseActivity
 from recorded import recorded
 from runs import cut
 

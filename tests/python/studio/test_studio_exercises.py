@@ -6,7 +6,7 @@ from attempts import HEAD, goal
 from punctura import ConfigurationError, save_scene
 from punctura.exercise import Attempt, exercise_names, load_exercise
 from punctura.live import SecondDevice
-from punctura.studio import exercise_activity
+from punctura.studio import activity as activities
 from punctura.studio.catalog import Exercises
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
@@ -173,7 +173,7 @@ def test_the_list_and_the_judge_know_whether_the_thumb_is_on_a_second_device(tmp
         attempts.append(second_device)
         return Attempt(exercise, scene, second_device)
 
-    monkeypatch.setattr(exercise_activity, "Attempt", attempt)
+    monkeypatch.setattr(activities, "Attempt", attempt)
     server = serve(tmp_path, "epidural", Settings(second=second))
     with StudioClient(server.address.url) as page:
         page.wait(lambda: page.of("scene") and page.last)

@@ -9,8 +9,7 @@ from punctura.files.toml import Tables
 from punctura.live import BackendState, Limits, enumerate_devices, load_limits, load_placement
 from punctura.record import open_recording
 from punctura.simulation import SimulationSummary
-from punctura.studio.activity import Activity, Outcome
-from punctura.studio.exercise_activity import ExerciseActivity
+from punctura.studio.activity import Activity, ExerciseActivity, Outcome
 from punctura.studio.wire.messages import Notice
 from punctura.ticks import Ticks
 
