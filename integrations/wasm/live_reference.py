@@ -32,8 +32,7 @@ from punctura.events import EventFinder
 from punctura.live import fit_conditioning, stroke_ends
 from punctura.scene import scene_names, scene_text
 from punctura.simulation import Target
-from punctura.studio.compare import OtherSolver
-from punctura.studio.estimating import Estimator
+from punctura.studio.followers import Estimator, OtherSolver
 from punctura.studio.loaded import from_text
 from punctura.studio.view import law_curves, scene_view
 from punctura.studio.wire.frames import encode_ticks

@@ -1,4 +1,4 @@
-// The live estimate of a run, as messages for the page. It is the C++ of python/punctura/studio/estimating.py.
+// The live estimate of a run, as messages for the page. It is the C++ of python/punctura/studio/followers.py.
 #pragma once
 
 #include <array>

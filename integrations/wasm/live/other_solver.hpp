@@ -1,4 +1,4 @@
-// The other solver on the same samples, for display only. It is the C++ of python/punctura/studio/compare.py.
+// The other solver on the same samples, for display only. It is the C++ of python/punctura/studio/followers.py.
 #pragma once
 
 #include <array>

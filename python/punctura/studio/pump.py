@@ -13,8 +13,7 @@ from punctura import Phase, Scene
 from punctura._core import Fault
 from punctura.defects import explain
 from punctura.events import EventFinder
-from punctura.studio.compare import OtherSolver
-from punctura.studio.estimating import Estimator
+from punctura.studio.followers import Estimator, OtherSolver
 from punctura.studio.health import fault_words
 from punctura.studio.run import Run
 from punctura.studio.view import TURN, Vector, law_curves, obliquities

@@ -8,7 +8,7 @@ from punctura.record import RecorderStatus
 from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
 from punctura.studio.arming import Arming
-from punctura.studio.estimating import no_estimate
+from punctura.studio.followers import no_estimate
 from punctura.studio.hand import Hand, Heard, Pose
 from punctura.studio.health import STILL_OFF, no_recording
 from punctura.studio.jobs import Jobs, Takes

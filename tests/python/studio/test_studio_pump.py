@@ -7,7 +7,7 @@ import punctura as pn
 import pytest
 from punctura._core import ServoLoop, SimulatedDevice
 from punctura.simulation import Strokes
-from punctura.studio.compare import OtherSolver
+from punctura.studio.followers import OtherSolver
 from punctura.studio.pump import MOST_TICKS, Pump
 from punctura.studio.wire import decode_ticks
 from waiting import wait_until
