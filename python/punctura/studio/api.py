@@ -23,8 +23,7 @@ from punctura.extras import MissingPackageError
 from punctura.record import RecordingError, open_recording
 from punctura.record.save_as import export_pieces
 from punctura.studio.catalog import scene_outlines
-from punctura.studio.computing import LabError, Line
-from punctura.studio.download import Download, json_of
+from punctura.studio.computing import Download, LabError, Line, json_of
 from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name

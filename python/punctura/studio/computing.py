@@ -1,7 +1,8 @@
-"""Computations in processes of their own, whose lines are sent to the page as they come. One at a time, in line."""
+"""Computations in processes of their own, and answers that are sent while they are made."""
 
 from __future__ import annotations
 
+import itertools
 import os
 import queue
 import signal
@@ -14,7 +15,11 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
+
+from pydantic_core import to_json
+from starlette.responses import Response, StreamingResponse
+from starlette.types import Receive, Scope, Send
 
 # Python puts the present folder first on its path. There a user's file named numpy.py would run as code.
 _START = (
@@ -171,3 +176,39 @@ def _why(code: int, errors: IO[bytes]) -> str:
     return (
         f"the computation ended early (status {code}); a defect, please report it: {'; '.join(lines) or 'no message'}"
     )
+
+
+def json_of(answer: object) -> Response:
+    """A model, or a list of models, of wire_schema.Answer."""
+    return Response(to_json(answer), media_type="application/json")
+
+
+class Download(StreamingResponse):
+    """Sends bytes as they come. Releases its slot when the response ends, also if the connection ends first."""
+
+    def __init__(self, pieces: Iterator[bytes], place: threading.BoundedSemaphore | None = None, **more: Any) -> None:
+        """Produces the first piece at once, so that an error in the file shows before the response begins.
+
+        place: a slot that the caller has acquired. It is released when the response ends or cannot begin.
+        """
+        self._pieces, self._place = pieces, place
+        try:
+            first = list(itertools.islice(pieces, 1))
+        except BaseException:
+            self._end()
+            raise
+        super().__init__(itertools.chain(first, pieces), **more)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            self._end()
+
+    def _end(self) -> None:
+        close = getattr(self._pieces, "close", None)
+        if close:
+            close()
+        if self._place:
+            self._place.release()
+            self._place = None

@@ -18,8 +18,7 @@ from punctura.compare.comparison import On
 from punctura.compare.vary import MOST_RUNS
 from punctura.compare.worker import Job, LabFailure, LabProgress, Variation
 from punctura.scene import scene_text
-from punctura.studio.computing import LabError, Line, lines_of, worker
-from punctura.studio.download import Download, json_of
+from punctura.studio.computing import Download, LabError, Line, json_of, lines_of, worker
 from punctura.studio.session import Session
 from punctura.studio.wire.common import Part
 

@@ -17,8 +17,7 @@ from starlette.responses import Response
 
 from punctura.files.names import TRACE_ENDINGS
 from punctura.studio import limits
-from punctura.studio.computing import LabError, Line, lines_of, worker
-from punctura.studio.download import Download
+from punctura.studio.computing import Download, LabError, Line, lines_of, worker
 from punctura.studio.names import LONGEST, BadName, safe_name
 from punctura.studio.security import FILES
 from punctura.studio.trace_job import TraceJob

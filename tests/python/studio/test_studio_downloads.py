@@ -17,7 +17,7 @@ from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, RecordingError, export, open_recording
 from punctura.record.save_as import PIECE_BYTES, export_pieces
 from punctura.simulation import Strokes
-from punctura.studio import connections, download
+from punctura.studio import computing, connections
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.shelf import LEFT_OVER_S, Shelf
 from recorded import assert_same_table
@@ -146,10 +146,10 @@ def test_a_download_that_cannot_begin_gives_its_place_back():
         raise RecordingError("damaged")
         yield b""
 
-    place = download.threading.BoundedSemaphore(1)
+    place = computing.threading.BoundedSemaphore(1)
     place.acquire()
     with pytest.raises(RecordingError):
-        download.Download(fails(), place)
+        computing.Download(fails(), place)
     assert place.acquire(blocking=False)
 
 
