@@ -11,7 +11,7 @@ from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
@@ -22,7 +22,6 @@ from punctura.scene import scene_json_schema
 from punctura.studio.api import Api
 from punctura.studio.catalog import ready_scenes
 from punctura.studio.connections import Connections
-from punctura.studio.figures import Figures
 from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
@@ -30,6 +29,48 @@ from punctura.studio.security import PROTOCOL, WITH_TOKEN, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
+
+_MADE = re.compile(r"index\.html|(fig\d\d|chatter|pop)\.(png|svg|csv)")
+
+
+def likely_folders() -> list[Path]:
+    """The default folders of `./run reproduce` and `punctura reproduce`, relative to the current folder."""
+    try:
+        here = Path.cwd()
+    except OSError:  # it has been deleted
+        return []
+    return [here / "out", here / "out" / "reproduce"]
+
+
+class Figures:
+    """Looks at each request, because the page may be created while the studio runs."""
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        self._folders = list(folders)
+
+    def route(self) -> Route:
+        return Route("/figures/{name}", self.file)
+
+    def index(self) -> Route:
+        return Route("/figures/", self.file)
+
+    @property
+    def exist(self) -> bool:
+        return self._find("index.html") is not None
+
+    def file(self, request: Request) -> Response:
+        file = self._find(request.path_params.get("name", "index.html"))
+        if file:
+            return FileResponse(file)
+        return PlainTextResponse("There are no figures yet: punctura reproduce makes them.\n", 404)
+
+    def _find(self, name: str) -> Path | None:
+        for folder in self._folders if _MADE.fullmatch(name) else ():
+            # The page is written last: when it is there, so are the other files.
+            if all((folder / each).is_file() and not (folder / each).is_symlink() for each in ("index.html", name)):
+                return folder / name
+        return None
+
 
 _ASSET = re.compile(r"(?<=\")\./assets/[^\"?]+(?=\")")
 NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."

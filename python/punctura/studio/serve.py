@@ -22,10 +22,9 @@ from punctura.exercise import ResultStore
 from punctura.live.supervisor import Supervisor
 from punctura.process.dropping_stream import terminal
 from punctura.process.signals import ends_on_signals
-from punctura.studio.app import NO_PAGE, Studio, build_app
+from punctura.studio.app import NO_PAGE, Studio, build_app, likely_folders
 from punctura.studio.catalog import Exercises
 from punctura.studio.connections import Connections, open_file_limit, room
-from punctura.studio.figures import likely_folders
 from punctura.studio.gate import gate
 from punctura.studio.hub import Hub
 from punctura.studio.limits import ACCEPTED_AT_ONCE, LISTEN_QUEUE, MOST_SCENE_TEXT
