@@ -19,9 +19,8 @@ from punctura.compare.background import step_back
 from punctura.defects import PATIENCE_S, explain
 from punctura.identify import Identification, identify
 from punctura.rivals import compare_trace
-from punctura.studio.trace_job import TraceJob
 from punctura.studio.trace_lines import file_line, fit_line, rivals_line, trace_line
-from punctura.studio.wire.identified import ErrorLine, IdentifyLine, ReportLine, RivalsLine, StepLine
+from punctura.studio.wire.identified import ErrorLine, IdentifyLine, ReportLine, RivalsLine, StepLine, TraceJob
 from punctura.trace import Trace, read_trace
 from punctura.trace.columns import ColumnError
 from punctura.trace.look import look_at

@@ -20,8 +20,7 @@ from punctura.studio import limits
 from punctura.studio.computing import Download, LabError, Line, lines_of, worker
 from punctura.studio.names import LONGEST, BadName, safe_name
 from punctura.studio.security import FILES
-from punctura.studio.trace_job import TraceJob
-from punctura.studio.wire.identified import ErrorLine, StepLine
+from punctura.studio.wire.identified import ErrorLine, StepLine, TraceJob
 
 FILE, IDENTIFY = FILES
 COMMAND = worker("punctura.studio.trace_worker")

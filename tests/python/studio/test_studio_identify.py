@@ -17,10 +17,10 @@ from punctura.studio import computing, limits, security, traces
 from punctura.studio.client import StudioClient
 from punctura.studio.limits import MOST_TRACE
 from punctura.studio.loaded import from_text
-from punctura.studio.trace_job import TraceJob
 from punctura.studio.trace_lines import kept_samples
 from punctura.studio.trace_worker import FieldError, do
 from punctura.studio.traces import FILE, IDENTIFY, file_name
+from punctura.studio.wire.identified import TraceJob
 from punctura.trace import TraceError
 from punctura.trace.columns import ColumnError
 from recorded import recorded

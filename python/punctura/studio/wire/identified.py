@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import BaseModel, Field
 
 from punctura.studio.wire.common import Finite, Part
 
@@ -164,3 +164,16 @@ class ErrorLine(Part):
 IdentifyLine = Annotated[
     FileLine | StepLine | TraceLine | FitLine | RivalsLine | ReportLine | ErrorLine, Field(discriminator="kind")
 ]
+
+
+class TraceJob(BaseModel):
+    """A file in the present folder, and the words that the user gave for it."""
+
+    task: Literal["look", "identify"]
+    file: str
+    columns: dict[str, str] = Field(default={})
+    units: dict[str, str] = Field(default={})
+    order: str = "recorded"
+    diameter_mm: str = ""
+    tip_angle_deg: str = ""
+    membranes: str = "auto"
