@@ -154,4 +154,4 @@ def gate(loop: asyncio.AbstractEventLoop, connections: Connections) -> None:
     def create_server(make: Callable[[], asyncio.BaseProtocol], *args: Any, **more: Any) -> Any:
         return create(lambda: Gate(make(), connections), *args, **more)
 
-    loop.create_server = create_server  # type: ignore[method-assign]
+    loop.create_server = create_server  # type: ignore[assignment, method-assign]
