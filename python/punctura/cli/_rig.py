@@ -20,24 +20,42 @@ Option = Annotated[
         metavar="NAME=VALUE",
     ),
 ]
-_UNITS = {"um": 1e-6, "ms": 1e-3}
+_STATED = {"depth_noise_um": ("depth_noise", 1e-6)}
+_TOLERANCES = {
+    "diameter_mm": ("diameter_tolerance", 1e-3), "tip_angle_rad": ("tip_angle_tolerance", 1.0),
+    "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)),
+}  # fmt: skip
 
 
-def rig_of(given: list[str] | None) -> Rig:
-    """The rig of `depth_noise_um=10`. Raises typer.BadParameter."""
-    from dataclasses import fields
-
+def rig_of(given: list[str] | None, needle: str) -> tuple[Rig, str]:
+    """The rig of `depth_noise_um=10` and of a needle `diameter_mm=1.27+-0.03,tip_angle_deg=20`, and the needle without
+    its tolerances. Raises typer.BadParameter.
+    """
     from punctura.identify.rig import Rig
 
-    known, values = {one.name for one in fields(Rig)}, {}
+    values = {}
     for name, text in pairs(given, "--rig").items():
-        kind, _, unit = name.rpartition("_")
-        try:
-            value = float(text) * _UNITS[unit]
-        except (KeyError, ValueError):
-            value = math.nan
-        if kind not in known or not (0 <= value < math.inf):
-            wanted = "must be as depth_noise_um=10, and not negative"
+        kind, factor = _STATED.get(name, ("", math.nan))
+        values[kind] = factor * _number(text)
+        if not 0 <= values[kind] < math.inf:
+            wanted = f"must be as {'=10, '.join(_STATED)}=10, and not negative"
             raise typer.BadParameter(f"{name}={text} {wanted}", param_hint="--rig")
-        values[kind] = value
-    return Rig(**values)
+    sizes = []
+    for part in needle.replace("\u00b1", "+-").split(","):
+        size, sign, tolerance = part.partition("+-")
+        name, _, stated = size.partition("=")
+        sizes.append(size)
+        if sign:
+            kind, factor = _TOLERANCES.get(name.strip(), ("", math.nan))
+            values[kind] = factor * _number(tolerance)
+            if not 0 <= values[kind] < 0.5 * factor * _number(stated):
+                wanted = "must be as diameter_mm=1.27+-0.03, with a tolerance of less than half"
+                raise typer.BadParameter(f"{part.strip()} {wanted}", param_hint="--needle")
+    return Rig(**values), ",".join(sizes)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan

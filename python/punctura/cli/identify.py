@@ -39,7 +39,7 @@ def command(
         str,
         typer.Option(
             "--needle",
-            help="The needle: diameter_mm=2,tip_angle_deg=45. A recording has its own.",
+            help="The needle: diameter_mm=2,tip_angle_deg=45, or diameter_mm=1.27+-0.03. A recording has its own.",
             metavar="NAME=VALUE,...",
         ),
     ] = "",
@@ -78,18 +78,21 @@ def command(
     from punctura.identify import identify
     from punctura.identify.folder import Task
     from punctura.identify.report import report_html
+    from punctura.identify.rig import UNKNOWN
     from punctura.identify.specimens import write_specimens
     from punctura.scene.write import scene_text
     from punctura.trace.bags import is_bag
 
     count = number_of(membranes)
+    known_rig, needle = _rig.rig_of(rig, needle)
     folder = trace.is_dir() and not is_bag(trace)
     if hold_out:
         from punctura.cli._hold_out import predict_folder, predict_insertion
 
-        if scene or report or plan or out or rig:
+        if scene or report or plan or out or known_rig != UNKNOWN:
             raise typer.BadParameter(
-                "predicts only: leave out --scene, --report, --plan, --rig and --out", param_hint="--hold-out"
+                "predicts only: leave out --scene, --report, --plan, --rig, --out and tolerances",
+                param_hint="--hold-out",
             )
         if folder:
             predict_folder(trace, _trace.needle_of(needle), count, reading, as_json)
@@ -102,7 +105,7 @@ def command(
         if out is None:
             raise typer.BadParameter("a folder of traces needs --out FOLDER for the results", param_hint="--out")
         check_folder(out, "--out")
-        task = Task(_trace.needle_of(needle, trace), count, reading, _rig.rig_of(rig))
+        task = Task(_trace.needle_of(needle, trace), count, reading, known_rig)
         if not folder:
             write_specimens(trace, reading, out / "specimens")
             trace, task = out / "specimens", replace(task, reading=replace(reading, sheet=None))
@@ -113,7 +116,7 @@ def command(
         check_place(path, option)
     check_apart({"TRACE": trace, **written})
     read, known = _trace.read_with_needle(trace, reading, needle, context)
-    found = identify(read, known, count, notice, _rig.rig_of(rig))
+    found = identify(read, known, count, notice, known_rig)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if not as_json and not found.doubts.explained.ok:
         from punctura.rivals import better

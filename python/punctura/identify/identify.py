@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -20,6 +20,7 @@ from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
+from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
@@ -94,7 +95,7 @@ class Identification:
                 for e in self.estimates
             ],
             "correlations": Uncertainty(self.fit).correlations.round(4).tolist(),
-            "rig": [asdict(value) for value in self.rig],
+            "rig": [{"name": r.name, "value": r.value, "unit": r.unit, "stated": r.stated} for r in self.rig],
             "findings": [{"kind": f.kind, "text": f.text, "repaired": f.repaired} for f in self.trace.findings],
             "explained": self.doubts.as_dict(),
             "not_told": list(self.verdicts),
@@ -160,10 +161,15 @@ def _identified(
             least = final.sse
             better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
+    if rig.diameter_tolerance or rig.tip_angle_tolerance:
+        tell("tolerances of the needle")
+        found = with_tolerance(found, final, rig)
+        of_needle = {"diameter": (rig.diameter_tolerance, "m"), "tip_angle": (rig.tip_angle_tolerance, "rad")}
+        known += [RigValue(f"{name}_tolerance", *one, True) for name, one in of_needle.items() if one[0]]
     effective = effective_samples(final.residuals, len(final.u))
     doubt = doubts(trace, segments, final, choice.current.extensions)
     said = verdicts(found, trace, segments, few_fit, doubt.explained.ok)
-    said = (*doubt.sentences, *said, *([MORE_OPTIMA] if more else []))
+    said = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *said, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
 
 

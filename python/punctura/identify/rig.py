@@ -10,6 +10,8 @@ class Rig:
     """What is stated of a rig, SI. None: it is estimated from the trace."""
 
     depth_noise: float | None = None  # m, standard deviation from sample to sample; 0: the depth is exact
+    diameter_tolerance: float = 0.0  # m, of the stated needle: the true one is within it, in 95 of 100
+    tip_angle_tolerance: float = 0.0  # rad
 
 
 UNKNOWN = Rig()

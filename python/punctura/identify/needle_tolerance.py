@@ -1,0 +1,80 @@
+"""Intervals for a needle that is stated with a tolerance: the fit is repeated at both ends of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura import Needle
+from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.intervals import Estimate
+from punctura.identify.parameters import Free
+from punctura.identify.rig import Rig
+
+Array = NDArray[np.float64]
+
+
+def with_tolerance(found: Sequence[Estimate], of: Fit, rig: Rig) -> tuple[Estimate, ...]:
+    """The estimates of a fit, with the intervals that the tolerances of the needle leave.
+
+    A tolerance is taken for the 95 % interval of the true size. Its part of an interval is how far the best value moves
+    from one end of the tolerance to the other, and adds to the rest by squares. Where no fit succeeds there, no bound
+    is known.
+    """
+    for ends in _ends(of.parameters.needle, rig):
+        moved = [_values_with(needle, of) for needle in ends]
+        found = [_widened(one, of.free, j, [each[j] for each in moved]) for j, one in enumerate(found)]
+    return tuple(found)
+
+
+def doubt_of_needle(found: Sequence[Estimate], needle: Needle, rig: Rig) -> tuple[str, ...]:
+    """One sentence, if the tip length that fits is not that of any needle within the tolerances."""
+    tips = [one.diameter / np.tan(one.tip_angle) for one in (needle, *chain(*_ends(needle, rig)))]
+    one = next((one for one in found if one.name == "tissue.tip_length"), None)
+    if one is None or one.low is None or one.high is None:
+        return ()
+    if max(tips) < one.low or min(tips) > one.high:
+        return (
+            f"A tip length of {one.value * 1e3:.3g} mm [{one.low * 1e3:.3g}, {one.high * 1e3:.3g}] fits, and that of "
+            f"the stated needle is {tips[0] * 1e3:.3g} mm. If its diameter or its angle is stated wrongly, the "
+            "intervals do not hold: measure them, or state a tolerance (--needle diameter_mm=1.27+-0.03).",
+        )
+    return ()
+
+
+def _ends(needle: Needle, rig: Rig) -> Iterator[tuple[Needle, Needle]]:
+    d, angle = needle.diameter, needle.tip_angle
+    if rig.diameter_tolerance:
+        yield Needle(d - rig.diameter_tolerance, angle), Needle(d + rig.diameter_tolerance, angle)
+    if rig.tip_angle_tolerance:
+        yield Needle(d, angle - rig.tip_angle_tolerance), Needle(d, angle + rig.tip_angle_tolerance)
+
+
+def _values_with(needle: Needle, of: Fit) -> Array:
+    """The best values (p,) with another needle; NaN where no fit succeeds. It begins with the pops where they are."""
+    old = of.misfit
+    base = replace(of.parameters, needle=needle)
+    try:
+        start = Free(of.free.names, base, float(old.trace.depth.max()), old.zero).parameters(of.u)
+        misfit = Misfit(old.trace, start, old.used, old.zero, old.depth_error)
+        end = fit(misfit, of.free.names, start)
+    except ValueError:  # TraceError; or a friction that jams this needle
+        return np.full(len(of.u), np.nan)
+    return end.free.values(end.u)
+
+
+def _widened(one: Estimate, free: Free, j: int, moved: Sequence[float]) -> Estimate:
+    logarithmic = free.logarithmic(j)
+    if one.low is None or one.high is None or not np.isfinite(moved).all():
+        bad = not np.isfinite(moved).all()
+        return replace(one, low=None if bad else one.low, high=None if bad else one.high)
+    low, value, high, *ends = (float(np.log(v)) if logarithmic else v for v in (one.low, one.value, one.high, *moved))
+    down, up = max(value - min(ends), 0.0), max(max(ends) - value, 0.0)
+    low, high = value - float(np.hypot(value - low, down)), value + float(np.hypot(high - value, up))
+    if logarithmic:
+        return replace(one, low=float(np.exp(low)), high=float(np.exp(high)))
+    return replace(one, low=max(low, float(free.low[j])) if one.low >= 0 else low, high=high)
