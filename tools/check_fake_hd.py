@@ -84,8 +84,8 @@ def drive() -> None:
     check("buttons", set(buttons) == {0})
     records = (Record * 200)()
     check("records", control.fake_hd_records(records, 200) == 200)
-    told = {call[:3] for call in calls}
-    seen = sum(tuple(record.position) in told for record in records[20:])
+    positions = {call[:3] for call in calls}
+    seen = sum(tuple(record.position) in positions for record in records[20:])
     check("translation in the last column, mm", seen >= 175)
     check("the stylus points against the third column", calls[-1][3:] == (0.0, 1.0, 0.0))
     force = (ctypes.c_double * 3)(1, 1, 1)

@@ -209,14 +209,14 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
         maker = Maker(page, seed)
         for thread in (*fuzzers, maker):
             thread.start()
-        told = began = time.monotonic()
+        shown = began = time.monotonic()
         while time.monotonic() - began < seconds and studio.running and page.closed is None:
             time.sleep(0.2)
             memory.add(studio.memory_mb())
             del page.messages[:-100]
-            if time.monotonic() - told > 60:
-                told = time.monotonic()
-                print(f"{told - began:.0f} s: {studio.memory_mb():.1f} MB, {page.ticks} ticks", flush=True)
+            if time.monotonic() - shown > 60:
+                shown = time.monotonic()
+                print(f"{shown - began:.0f} s: {studio.memory_mb():.1f} MB, {page.ticks} ticks", flush=True)
         good = good and maker.is_alive()  # an error ends it
         for thread in (*fuzzers, maker):
             thread.stop = True
@@ -227,7 +227,7 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
         page.close()
         code = studio.end()
         recording = open_recording(folder / "recordings" / "fuzz.parquet")
-        said = studio.said()
+        log = studio.log()
     ends: Counter[str] = sum((fuzzer.ends for fuzzer in fuzzers), Counter())
     print(f"{sum(f.sent for f in fuzzers)} sent, seed {seed}; ends: {dict(ends.most_common())}")
     print(f"exercises: {dict(maker.replies)}, defects: {maker.defects[:3]}")
@@ -235,9 +235,9 @@ def fuzz(seconds: float, seed: int, folder: Path) -> int:
     growth = memory.growth()
     print(f"memory {memory.samples[-1] if memory.samples else 0:.1f} MB, grown by {growth:+.1%}; ended with {code}")
     good = good and code == 130 and memory.flat(MOST_GROWTH) and recording.lost == page.gaps == status["lost"] == 0
-    good = good and "Traceback" not in said and sum(ends.values()) > 0
+    good = good and "Traceback" not in log and sum(ends.values()) > 0
     good = good and not maker.defects and maker.replies["done"] > 0 and maker.replies["refused"] > 0
-    print("passed" if good else f"FAILED {said[-3000:]}")
+    print("passed" if good else f"FAILED {log[-3000:]}")
     return 0 if good else 1
 
 

@@ -92,8 +92,8 @@ def falls(force: Array, depth: Array, noise: float, share: float = 1.0) -> list[
 
 def measure(tally: Tally, depth: Array, force: Array, noise: float, rng: np.random.Generator) -> None:
     live = LiveEstimate(noise=noise)
-    told = live.run(depth, force + noise * rng.standard_normal(len(force)), PERIOD)
-    alarms = np.flatnonzero(told["punctured"]).tolist()
+    estimates = live.run(depth, force + noise * rng.standard_normal(len(force)), PERIOD)
+    alarms = np.flatnonzero(estimates["punctured"]).tolist()
     entries = np.cumsum(np.diff(depth < 0, prepend=True))  # there is one wall, so one puncture between two of them
     tally.second += len(alarms) - len(set(entries[alarms]))
     for top, fallen, end in falls(force, depth, noise):
@@ -105,7 +105,7 @@ def measure(tally: Tally, depth: Array, force: Array, noise: float, rng: np.rand
         tally.delays.append((mine[0] - top) * PERIOD)
         tally.waits.append((mine[0] - fallen) * PERIOD)
         alarms.remove(mine[0])
-        count_slope(tally, told, depth, force, top)
+        count_slope(tally, estimates, depth, force, top)
     for top, _, end in falls(force, depth, noise, 0.4):  # a smaller fall than the least drop, but a fall
         alarms = [a for a in alarms if not top <= a <= end + int(0.05 * RATE)]
     tally.false_alarms += len(alarms)
@@ -115,19 +115,19 @@ def measure(tally: Tally, depth: Array, force: Array, noise: float, rng: np.rand
 RISE = 1  # the phase in which a membrane resists
 
 
-def count_slope(tally: Tally, told: dict[str, Array], depth: Array, force: Array, top: int) -> None:
+def count_slope(tally: Tally, estimates: dict[str, Array], depth: Array, force: Array, top: int) -> None:
     """At 60 % of the way to the greatest force: is the true slope, weighted as the estimate weighs, in its interval?"""
     contact = int(np.argmax(force > 0.03))
     at = contact + int(0.6 * (top - contact))
-    if not np.isfinite(told["slope_error"][at]):
+    if not np.isfinite(estimates["slope_error"][at]):
         return
-    start = at - int(np.argmax(told["phase"][at::-1] != RISE)) + 1  # where the estimate begins its line
+    start = at - int(np.argmax(estimates["phase"][at::-1] != RISE)) + 1  # where the estimate begins its line
     rows = slice(start, at + 1)
     weight = np.sqrt(np.exp((depth[rows] - depth[at]) / 1e-3))
     shape = np.column_stack([np.ones(at + 1 - start), depth[rows]])
     true = np.linalg.lstsq(shape * weight[:, None], force[rows] * weight, rcond=None)[0][1]
     tally.slopes += 1
-    tally.inside += bool(abs(told["slope"][at] - true) <= 1.96 * told["slope_error"][at])
+    tally.inside += bool(abs(estimates["slope"][at] - true) <= 1.96 * estimates["slope_error"][at])
 
 
 def row(name: str, make: object, speed: float, noise: float, runs: int) -> str:

@@ -55,7 +55,7 @@ def soak(minutes: float, folder: Path) -> int:
         loop.arm()
         loop.start()
         began = time.monotonic()
-        memory, told, stolen = 0.0, began, stolen_s()
+        memory, shown, stolen = 0.0, began, stolen_s()
         while (now := time.monotonic()) - began < 60 * minutes:
             time.sleep(0.05)
             if int(loop.latest()["fault"][0]):  # reset the loop, like a user after a fault
@@ -63,8 +63,8 @@ def soak(minutes: float, folder: Path) -> int:
                 loop.arm()
             if memory == 0 and now - began > min(10.0, 30 * minutes):
                 memory = resident_mb()
-            if now - told > 30:
-                told, status = now, recorder.status()
+            if now - shown > 30:
+                shown, status = now, recorder.status()
                 print(f"{status.rows} ticks, {status.lost} lost, {status.bytes / 1e6:.0f} MB", flush=True)
         loop.stop()
         grown, stolen = resident_mb() - memory, stolen_s() - stolen

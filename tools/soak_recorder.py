@@ -124,17 +124,17 @@ def kill_once(server: Server, folder: Path, chance: random.Random, kind: int) ->
     finish_after = chance.uniform(0.05, 0.5) if kind == 3 else 2 * MOST_WAIT_S
     with memory.open("r+b") as file, mmap.mmap(file.fileno(), 24) as shared:
 
-        def said(place: int) -> int:
+        def word_at(place: int) -> int:
             return int(struct.unpack_from("<q", shared, place)[0])
 
         server.start(path, memory, finish_after)
         try:
             begun = FINISHING if kind == 3 else STATE
-            wait_until(lambda: kind < 2 or said(STATE) == BLOCKED or said(begun) != 0, MOST_WAIT_S, poll=1e-4)
+            wait_until(lambda: kind < 2 or word_at(STATE) == BLOCKED or word_at(begun) != 0, MOST_WAIT_S, poll=1e-4)
             time.sleep(chance.uniform(0, KILLED_WITHIN_S[kind]))
         finally:
             server.kill()
-        ticks, state = said(TICKS), said(STATE)
+        ticks, state = word_at(TICKS), word_at(STATE)
     return Kill(ticks, missing_at_end(path, ticks), state == BLOCKED, state == BEGUN)
 
 

@@ -85,7 +85,7 @@ class Watch:
         except Exception as error:
             self.answers[f"new page: {type(error).__name__}"] += 1
 
-    def told(self) -> str:
+    def summary(self) -> str:
         entries = (
             f"{statistics.median(self.entries):.2f} s, at most {max(self.entries):.2f} s" if self.entries else "none"
         )
@@ -112,7 +112,7 @@ def run_storm(kind: str, port: int, token: str, seconds: float, connections: int
 
 def soak(title: str, kind: str, with_token: bool, connections: int, seconds: float, folder: Path) -> bool:
     processes = multiprocessing.get_context("spawn")
-    said: Any = processes.Queue()
+    results: Any = processes.Queue()
     stop = processes.Event()
     with StudioProcess(folder, page=blank_page(folder), open_files=OPEN_FILES) as studio:
         page = StudioClient(studio.url, patience=60)
@@ -121,7 +121,7 @@ def soak(title: str, kind: str, with_token: bool, connections: int, seconds: flo
         page.ask(do="strokes", period=2.0)
         watch = Watch(studio, page)
         token = page.token if with_token else ""
-        storm = (kind, studio.port, token, seconds + FINISHING_S, connections, stop, said)
+        storm = (kind, studio.port, token, seconds + FINISHING_S, connections, stop, results)
         attacker = processes.Process(target=run_storm, args=storm, daemon=True)
         attacker.start()
         end = time.monotonic() + seconds
@@ -134,12 +134,12 @@ def soak(title: str, kind: str, with_token: bool, connections: int, seconds: flo
             finished, begun, recording, lost = False, False, f"the page is lost: {error}", -1
         watch.memory.append(studio.memory_mb())
         stop.set()
-        counts = said.get(timeout=60)
+        counts = results.get(timeout=60)
         attacker.join(60)
         page.close()
         code = studio.end()
-        words = studio.said()
-    print(f"{title}: {counts}\n{watch.told()}")
+        words = studio.log()
+    print(f"{title}: {counts}\n{watch.summary()}")
     print(f"  recording: {recording}; finished {finished}, another one begun {begun}; the studio ended with {code}")
     good = (
         good

@@ -81,14 +81,14 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
             answer = holder.ask(do="start_recording", name="soak")
             holder.ask(do="strokes", period=4.0)
             browser.rates()
-            told = began = time.monotonic()
+            shown = began = time.monotonic()
             while (now := time.monotonic()) - began < seconds and studio.running:
                 browser.pause(0.5)
                 memory.add(studio.memory_mb())
                 for page in pages:
                     del page.messages[:-100]  # limits the memory of this program
-                if now - told > every:
-                    told = now
+                if now - shown > every:
+                    shown = now
                     ticks = [page.ticks for page in pages]
                     print(
                         f"{now - began:.0f} s: {studio.memory_mb():.1f} MB, {ticks} ticks; {watched.look(browser)}",
@@ -106,7 +106,7 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
             page.close()
         code = studio.end()
         recording = open_recording(folder / "recordings" / "soak.parquet")
-        gaps, said = sum(page.gaps for page in pages), studio.said()
+        gaps, log = sum(page.gaps for page in pages), studio.log()
     print(
         f"{status['viewers']} viewers; {recording.rows} ticks recorded, {recording.lost} lost; gaps at viewers: {gaps}"
     )
@@ -124,8 +124,8 @@ def soak(seconds: float, folder: Path, picture: Path | None) -> int:
     good = answer["ok"] and stopped["ok"] and recording.finished and status["viewers"] in (3, 4) and code == 130
     good = good and memory.flat(MOST_GROWTH) and watched.heap.flat(MOST_GROWTH) and not errors
     good = good and watched.fluent()
-    good = good and recording.lost == 0 and gaps == 0 and status["lost"] == 0 and "Traceback" not in said
-    print("passed" if good else f"FAILED {errors} {said[-2000:]}")
+    good = good and recording.lost == 0 and gaps == 0 and status["lost"] == 0 and "Traceback" not in log
+    print("passed" if good else f"FAILED {errors} {log[-2000:]}")
     return 0 if good else 1
 
 

@@ -110,12 +110,12 @@ class Flood:
 
 def drained(master: int, slave: int) -> list[bytes]:
     """Continues the terminal, reads its output until there is none for a second, and stops it again."""
-    said = b""
+    output = b""
     go_on(slave)
     while select.select([master], [], [], 1)[0]:
-        said += os.read(master, 65536)
+        output += os.read(master, 65536)
     stop(slave)
-    return said.splitlines()
+    return output.splitlines()
 
 
 def soak(seconds: float, folder: Path) -> int:
@@ -149,11 +149,11 @@ def soak_beside(runs: list[Headless], ends: tuple[int, int], seconds: float, fol
                 time.sleep(ASK_EVERY_S)
             page.ask(do="stop_recording")
         flood.end()
-        said = drained(master, slave)
+        lines = drained(master, slave)
         began = time.monotonic()
         code = studio.end()
         took = time.monotonic() - began
-    logged, left_out = sum(LOGGED in line for line in said), [line for line in said if b"left out here" in line]
+    logged, left_out = sum(LOGGED in line for line in lines), [line for line in lines if b"left out here" in line]
     good = all([run.end() for run in runs]) and good
     path = folder / "recordings" / "soak.parquet"
     good = report("flooded studio", memory, code, took, 128 + signal.SIGINT, path) and good

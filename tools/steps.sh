@@ -117,14 +117,14 @@ compile() {
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
-  local said=build/log/side-by-side a_failed=0 b_failed=0 a b
-  "$1" >"$said-a.log" 2>&1 & a=$!
-  "$2" >"$said-b.log" 2>&1 & b=$!
+  local logs=build/log/side-by-side a_failed=0 b_failed=0 a b
+  "$1" >"$logs-a.log" 2>&1 & a=$!
+  "$2" >"$logs-b.log" 2>&1 & b=$!
   trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # background jobs of a script do not get Ctrl-C
   wait $a || a_failed=1
   wait $b || b_failed=1
   trap - INT TERM HUP
-  if [ $a_failed -eq 1 ]; then cat "$said-b.log" "$said-a.log"; else cat "$said-a.log" "$said-b.log"; fi
+  if [ $a_failed -eq 1 ]; then cat "$logs-b.log" "$logs-a.log"; else cat "$logs-a.log" "$logs-b.log"; fi
   return $((a_failed || b_failed))
 }
 both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }
@@ -157,8 +157,8 @@ step_tsan() {
   tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests" --test-case-exclude='the child of a fork*')
   export PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.
-  local said
-  said=$("${tsan_tests[@]}" --list-test-cases 2>&1) || case $said in
+  local listed
+  listed=$("${tsan_tests[@]}" --list-test-cases 2>&1) || case $listed in
     *"unexpected memory mapping"*) tsan_tests=(setarch "$(uname -m)" -R "${tsan_tests[@]}") ;;
   esac
   side_by_side tsan_makers tsan_others

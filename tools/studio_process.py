@@ -43,7 +43,7 @@ class StudioProcess:
         """scene: may be empty. page: folder to serve in place of the studio's page. token: default: a new one.
 
         open_files: limit of the studio's open files, on POSIX; 0 for that of this process. terminal: descriptor for its
-        standard error; `said` is then empty. more: options of `punctura run`.
+        standard error; log() is then empty. more: options of `punctura run`.
         """
         self.recordings = folder / "recordings"
         command = [*self.program, "run", *([scene] if scene else [])]
@@ -51,7 +51,7 @@ class StudioProcess:
         command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
         command += more
         home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
-        self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "said.txt").open("w+")
+        self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "log.txt").open("w+")
         self._process = subprocess.Popen(
             command,
             stdout=self._out,
@@ -68,9 +68,9 @@ class StudioProcess:
         if found := ADDRESS.search(_whole(self._out)):
             return found[0], int(found[1])
         self.end()
-        raise RuntimeError(f"the studio did not start: {self.said()}")
+        raise RuntimeError(f"the studio did not start: {self.log()}")
 
-    def said(self) -> str:
+    def log(self) -> str:
         """Its output on standard error."""
         return _whole(self._errors)
 

@@ -2,7 +2,7 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
-        [--delay 0] [--walls 1] [--apart 0.5] [--processes 1] [--seed 1]
+        [--delay 0] [--walls 1] [--apart 0.5] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -85,7 +85,7 @@ class Row:
     """One parameter of one trace."""
 
     kind: str
-    told: bool  # identify calls it identifiable
+    identifiable: bool  # says identify
     held: bool  # the interval holds the truth
     hidden: bool  # no method could tell it
 
@@ -225,11 +225,11 @@ def summary(rows: Sequence[Row]) -> list[str]:
     lines = []
     for kind in [*dict.fromkeys(row.kind for row in rows), "all"]:
         of = [row for row in rows if kind in (row.kind, "all")]
-        told = [row for row in of if row.told]
-        held, missed = sum(row.held for row in told), sum(row.hidden for row in told)
-        share = f"{100 * held / len(told):5.1f} %" if told else "-"
+        shown = [row for row in of if row.identifiable]
+        held, missed = sum(row.held for row in shown), sum(row.hidden for row in shown)
+        share = f"{100 * held / len(shown):5.1f} %" if shown else "-"
         lines.append(
-            f"{kind:20} {share} of {len(told):5} intervals hold the truth; not identifiable: {len(of) - len(told)}; "
+            f"{kind:20} {share} of {len(shown):5} intervals hold the truth; not identifiable: {len(of) - len(shown)}; "
             f"hidden: {sum(row.hidden for row in of)}, of these called identifiable: {missed}"
         )
     return lines
@@ -249,11 +249,11 @@ def main() -> None:
     parser.add_argument("--apart", type=float, default=0.5, help="tip lengths")
     for option, unit in OTHERS.items():
         parser.add_argument(option, type=float, default=0.0, help=unit)
-    parser.add_argument("--processes", type=int, default=1)
+    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     seeds = range(given.seed, given.seed + given.traces)
-    with ProcessPoolExecutor(given.processes, multiprocessing.get_context("spawn")) as pool:
+    with ProcessPoolExecutor(given.workers, multiprocessing.get_context("spawn")) as pool:
         conditions = Conditions(**{one.name: getattr(given, one.name) for one in fields(Conditions)})
         one = partial(tried, given=conditions)
         rows = [row for found in pool.map(one, seeds, chunksize=4) for row in found]

@@ -65,12 +65,12 @@ def fitted(trace: Trace) -> Fit:
 def draw_fit(axes: Axes, below: Axes, trace: Trace) -> None:
     """The trace, the fit and what is left, with the places that are not explained."""
     found = fitted(trace)
-    told = doubts(trace, segment(trace), found, ())
+    doubtful = doubts(trace, segment(trace), found, ())
     model = trace.force + found.residuals
     axes.plot(1e3 * trace.depth, trace.force, color=COLOURS["pale"], lw=0.8, label="trace")
     axes.plot(1e3 * trace.depth, model, color=COLOURS["good"], lw=1.1, label="K06, one wall")
     below.plot(1e3 * trace.depth, 1e3 * (trace.force - model), color=COLOURS["bad"], lw=0.6)
-    for place in told.explained.places:
+    for place in doubtful.explained.places:
         for each in (axes, below):
             each.axvspan(1e3 * place.shallow, 1e3 * place.deep, color="#f3d9a4", lw=0, zorder=0)
     axes.set(ylabel="force, N")
@@ -78,7 +78,7 @@ def draw_fit(axes: Axes, below: Axes, trace: Trace) -> None:
     axes.legend(fontsize=8, frameon=False)
     below.axhline(0, color="black", lw=0.5)
     below.set(xlabel="depth, mm", ylabel="left, mN")
-    print(*(told.sentences or ("The trace is explained.",)), sep="\n")
+    print(*(doubtful.sentences or ("The trace is explained.",)), sep="\n")
 
 
 def pulled(ratio: float) -> Trace:
@@ -124,28 +124,28 @@ FITS: dict[str, Callable[[], Trace]] = {
 def numbers(axes: Axes) -> None:
     """The numbers of `punctura measure` on a trace."""
     trace = plain()
-    (told,) = numbers_of(trace)
-    pop = told.pops[0]
-    assert told.contact_m is not None and told.gradient_N_per_m is not None and told.withdrawal_N is not None
-    depth, force = 1e3 * trace.depth, trace.force - told.zero_N
+    (found,) = numbers_of(trace)
+    pop = found.pops[0]
+    assert found.contact_m is not None and found.gradient_N_per_m is not None and found.withdrawal_N is not None
+    depth, force = 1e3 * trace.depth, trace.force - found.zero_N
     end = int(np.argmax(trace.depth))
-    inside = slice(int(np.argmax(trace.depth >= told.contact_m)), end)
+    inside = slice(int(np.argmax(trace.depth >= found.contact_m)), end)
     axes.fill_between(depth[inside], 0, force[inside], color="#e4ecf5", lw=0)
     axes.plot(depth, force, color=COLOURS["pale"], lw=0.9)
-    middle = (0.5 * (1e3 * told.contact_m + 1e3 * told.peak_depth_m), 0.5 * told.peak_N)
+    middle = (0.5 * (1e3 * found.contact_m + 1e3 * found.peak_depth_m), 0.5 * found.peak_N)
     run = np.array([-1.0, 1.0])
-    axes.plot(middle[0] + run, middle[1] + run * told.gradient_N_per_m * 1e-3, color=COLOURS["good"], lw=2)
-    axes.plot(1e3 * told.peak_depth_m, told.peak_N, "o", color=COLOURS["bad"], ms=4)
+    axes.plot(middle[0] + run, middle[1] + run * found.gradient_N_per_m * 1e-3, color=COLOURS["good"], lw=2)
+    axes.plot(1e3 * found.peak_depth_m, found.peak_N, "o", color=COLOURS["bad"], ms=4)
     fall = 1e3 * (pop.depth_m + pop.width_m) + 0.25
     axes.annotate("", (fall, pop.peak_N - pop.drop_N), (fall, pop.peak_N), arrowprops={"arrowstyle": "<->", "lw": 0.8})
     for text, place in (
-        (f"contact {1e3 * told.contact_m:.2f} mm", (2.4, 0.06)),
-        (f"gradient {1e-3 * told.gradient_N_per_m:.2f} N/mm", (2.1, 0.55)),
-        (f"peak {told.peak_N:.2f} N at {1e3 * told.peak_depth_m:.2f} mm", (4.2, 0.9)),
+        (f"contact {1e3 * found.contact_m:.2f} mm", (2.4, 0.06)),
+        (f"gradient {1e-3 * found.gradient_N_per_m:.2f} N/mm", (2.1, 0.55)),
+        (f"peak {found.peak_N:.2f} N at {1e3 * found.peak_depth_m:.2f} mm", (4.2, 0.9)),
         (f"drop {pop.drop_N:.2f} N", (fall + 0.2, 0.62)),
-        (f"work {1e3 * told.work_J:.2f} mJ", (10, 0.18)),
-        (f"final {told.final_N:.2f} N", (13, 0.48)),
-        (f"withdrawal {told.withdrawal_N:.2f} N", (8.8, -0.34)),
+        (f"work {1e3 * found.work_J:.2f} mJ", (10, 0.18)),
+        (f"final {found.final_N:.2f} N", (13, 0.48)),
+        (f"withdrawal {found.withdrawal_N:.2f} N", (8.8, -0.34)),
     ):
         axes.text(*place, text, fontsize=8)
     axes.axhline(0, color="black", lw=0.5)
@@ -158,18 +158,18 @@ def prediction(axes: Axes) -> None:
     force = law(time, depth)
     later = np.arange(len(depth)) >= len(depth) // 2
     trace = noisy(time, depth, np.where(later, 0.75 * force, force))
-    told = {one.name: one for one in second_insertion(trace, NEEDLE, 1)}
+    predictions = {one.name: one for one in second_insertion(trace, NEEDLE, 1)}
     second = trace.strokes == 1
     where = 1e3 * trace.depth[second]
     axes.plot(1e3 * trace.depth[~second], trace.force[~second], color="#d8d8d8", lw=0.8, label="first insertion")
     axes.plot(where, trace.force[second], color=COLOURS["pale"], lw=0.8, label="second insertion, not seen by the fit")
-    best_rival = min((one for one in told.values() if one.name not in ("k06", REPEAT)), key=lambda one: one.rmse)
-    for one, colour in ((told["k06"], COLOURS["good"]), (best_rival, COLOURS["bad"])):
+    best_rival = min((one for one in predictions.values() if one.name not in ("k06", REPEAT)), key=lambda one: one.rmse)
+    for one, colour in ((predictions["k06"], COLOURS["good"]), (best_rival, COLOURS["bad"])):
         label = f"{one.title}: error {1e3 * one.rmse:.0f} mN"
         axes.plot(where, one.force, color=colour, lw=1.1, label=label)
     axes.set(xlabel="depth, mm", ylabel="force, N", ylim=(-0.6, 1.7))
     axes.legend(fontsize=7, frameon=False, loc="upper left")
-    for one in told.values():
+    for one in predictions.values():
         print(f"{one.title}: {one.rmse:.4f} N, {100 * one.rmse_share:.1f} %")
 
 

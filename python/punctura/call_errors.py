@@ -13,11 +13,11 @@ import numpy as np
 from punctura import _core
 
 
-def explained(function: Any, given: Sequence[Any], named: Mapping[str, object], otherwise: str) -> str:
-    """The message of a TypeError. otherwise: nanobind's message, for a signature that cannot be read."""
+def explained(function: Any, given: Sequence[Any], named: Mapping[str, object], fallback: str) -> str:
+    """The message of a TypeError. fallback: nanobind's message, for a signature that cannot be read."""
     signature = _parsed(function.__nb_signature__[-1][0])
     if signature is None:
-        return otherwise
+        return fallback
     parameters, values = _parameters(signature.args), list(given)
     owner, _, name = (function.__qualname__ or signature.name).rpartition(".")
     if not owner and values and next(iter(parameters), "") == "self":  # the setter of a property
@@ -39,8 +39,8 @@ def explained(function: Any, given: Sequence[Any], named: Mapping[str, object], 
         types = ", ".join(f"{name}: {type(value).__name__}" for name, value in got.items())
         faults = [f"an argument has a wrong type or value ({types})"]
     takes = ", ".join(f"{n}: {_plain(text)}{' (optional)' if more else ''}" for n, (text, more) in parameters.items())
-    told = "; ".join(faults)
-    return f"{call}(): {told}{'' if told.endswith('?') else '.'} It takes ({takes})"
+    text = "; ".join(faults)
+    return f"{call}(): {text}{'' if text.endswith('?') else '.'} It takes ({takes})"
 
 
 def _parsed(text: str) -> ast.FunctionDef | None:

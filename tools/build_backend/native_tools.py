@@ -79,12 +79,12 @@ def _compiler() -> str:
 def _trouble(command: list[str], name: str) -> str:
     flags = ["-std=c++20", "-x", "c++", "-fsyntax-only", "-"]
     try:
-        said = subprocess.run([*command, *flags], input=PROBE, capture_output=True, text=True, check=False)
+        probe = subprocess.run([*command, *flags], input=PROBE, capture_output=True, text=True, check=False)
     except OSError as error:
         return f"{name} does not start ({error.strerror})"
-    if said.returncode == 0:
+    if probe.returncode == 0:
         return ""
-    first = next(iter(said.stderr.strip().splitlines()), "no reason given")
+    first = next(iter(probe.stderr.strip().splitlines()), "no reason given")
     return f"{name} is not a C++20 compiler ({first})"
 
 

@@ -56,11 +56,11 @@ def node() -> str | None:
     """The reason why the Node on PATH is not usable; None if it is."""
     if not (shutil.which("node") and shutil.which("npm")):
         return "no Node and npm on PATH"
-    said = _run(["node", "--version"], ROOT).stdout
-    version = re.match(r"v(\d+)\.(\d+)", said)
+    printed = _run(["node", "--version"], ROOT).stdout
+    version = re.match(r"v(\d+)\.(\d+)", printed)
     if version is None or tuple(map(int, version.groups())) < OLDEST_NODE:
         oldest = ".".join(map(str, OLDEST_NODE))
-        return f"Node {oldest} or newer is needed; PATH has {said.strip() or 'one that does not start'}"
+        return f"Node {oldest} or newer is needed; PATH has {printed.strip() or 'one that does not start'}"
     return None
 
 

@@ -145,8 +145,8 @@ def _trials(
     if not isinstance(motion, Strokes | RecordedMotion) and motion.ndim == 3:
         counts["motion"] = len(motion)
     if len(set(counts.values())) > 1:
-        told = ", ".join(f"{name}: {count}" for name, count in counts.items())
-        raise ValueError(f"the arguments ask for different numbers of trials ({told})")
+        listed = ", ".join(f"{name}: {count}" for name, count in counts.items())
+        raise ValueError(f"the arguments ask for different numbers of trials ({listed})")
     return next((count for count in counts.values() if count is not None), 1)
 
 

@@ -129,7 +129,7 @@ def _keep_pandas_away() -> None:
 def _as_sentence(
     message: Warning | str, category: type[Warning], filename: str, lineno: int, line: str | None = None
 ) -> str:
-    """A warning as the command line tells it: without a place in Punctura's sources."""
+    """A warning as the command line prints it: without a place in Punctura's sources."""
     if category.__module__.startswith("punctura."):
         return f"punctura: warning: {message}\n"
     return _usual_warning(message, category, filename, lineno, line)

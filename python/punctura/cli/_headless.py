@@ -83,13 +83,13 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
             notice(f"note: {note}")
         return tape.begin(loop)
 
-    def tell(summary: RunSummary, tell_result: Callable[[str], None]) -> None:
-        told = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
-        tell_result(json.dumps(told, indent=2, default=os.fspath) if as_json else in_words(summary))
+    def report(summary: RunSummary, print_result: Callable[[str], None]) -> None:
+        record = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
+        print_result(json.dumps(record, indent=2, default=os.fspath) if as_json else in_words(summary))
         if not summary.force_was_on and summary.ticks > 0:
             button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
             notice(f"note: there was no force at any time: {button}the tip was never in front of all membranes")
-        tape.tell_fault(summary.fault)
+        tape.report_fault(summary.fault)
 
     try:
         summary = run_live(
@@ -98,11 +98,11 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         )  # fmt: skip
     except Ended as end:
         if end.summary is not None and end.summary.ticks > 0:
-            tell(end.summary, tell_if_read)
+            report(end.summary, print_if_read)
         raise
     if summary.ticks == 0 and isinstance(opened, FedDevice) and not summary.fault:
         summary.fault = "the device gave no reading: the program that feeds it has failed, or has not begun"
-    tell(summary, tell_result)
+    report(summary, print_result)
     if summary.fault or not tape.whole:
         raise typer.Exit(FAILED)
 
@@ -116,7 +116,7 @@ class Tape:
         if path:  # before the run, which would wait for the import
             optional("pyarrow", "files", "--record")
             importlib.import_module("punctura.record")
-        self._fault = ""  # that was told
+        self._fault = ""  # that was reported
         self._recorder: Recorder | None = None
         self.thumb: ThumbLoop | None = None  # the second device's loop
 
@@ -131,9 +131,9 @@ class Tape:
     def watch(self, summary: RunSummary) -> None:
         status = self._recorder.status() if self._recorder else None
         self._line(summary, "" if status is None else status.words)
-        self.tell_fault(summary.fault)
+        self.report_fault(summary.fault)
 
-    def tell_fault(self, fault: str) -> None:
+    def report_fault(self, fault: str) -> None:
         """Prints the fault at once, and later additions: a driver call that never returns would delay the end."""
         if fault and fault != self._fault:
             news, self._fault = fault.removeprefix(f"{self._fault}: "), fault
@@ -157,7 +157,7 @@ class Tape:
             notice(f"recording: {text}")
 
 
-def tell_if_read(text: str) -> None:
+def print_if_read(text: str) -> None:
     """Prints after a signal: no reader and no error of the stream delays the end or changes its status."""
     try:
         where = sys.stdout.fileno()
@@ -171,7 +171,7 @@ def tell_if_read(text: str) -> None:
         return
 
 
-def tell_result(text: str) -> None:
+def print_result(text: str) -> None:
     """Prints after the run, and waits for the reader. Raises OSError, except for a closed terminal."""
     try:
         typer.echo(text)

@@ -134,21 +134,21 @@ def command(
 def _folder(folder: Path, out: Path, task: Task, workers: int | None, as_json: bool) -> None:
     from punctura.identify.folder import identify_folder
 
-    with progress_bar("identify") as tell:
-        told = identify_folder(folder, out, task, workers, tell)
+    with progress_bar("identify") as progress:
+        done = identify_folder(folder, out, task, workers, progress)
     if as_json:
-        typer.echo(json.dumps(told, indent=2))
+        typer.echo(json.dumps(done, indent=2))
     else:
-        _tell_folder(out, told)
-    if told["failed"]:
+        _print_folder(out, done)
+    if done["failed"]:
         raise typer.Exit(FAILED)
 
 
-def _tell_folder(out: Path, told: FolderRecord) -> None:
-    typer.echo(f"{out}: {told['identified']} of {told['traces']} traces identified, {told['kept']} kept from before")
-    for name, reason in told["failed"].items():
+def _print_folder(out: Path, done: FolderRecord) -> None:
+    typer.echo(f"{out}: {done['identified']} of {done['traces']} traces identified, {done['kept']} kept from before")
+    for name, reason in done["failed"].items():
         typer.echo(f"  {name}: {reason}")
-    for row in told["population"]:
+    for row in done["population"]:
         spread = f"{100 * row['spread']:.3g} %" if row["spread_is_relative"] else f"{row['spread']:.3g} {row['unit']}"
         typer.echo(f"  {row['name']:28} {row['mean']:10.4g} {row['unit']:6} [{row['low']:.4g}, {row['high']:.4g}], "
                    f"spread {spread}")  # fmt: skip

@@ -46,11 +46,11 @@ def command(
     check_place(out, "--out")
     check_apart({"TRACE": trace, "--out": out})
     folder = trace.is_dir() and not is_bag(trace)
-    told = measured(traces_in(trace) if folder else [trace], reading, math.radians(angle))
-    if not folder and not told["rows"]:
+    found = measured(traces_in(trace) if folder else [trace], reading, math.radians(angle))
+    if not folder and not found["rows"]:
         _trace.read_or_ask(trace, reading, context)  # asks for what the file does not state
-    typer.echo(json.dumps(told, indent=2) if as_json else in_words(told))
+    typer.echo(json.dumps(found, indent=2) if as_json else in_words(found))
     if out is not None:
-        save(table_of(told["rows"]), out)
-    if told["failed"]:
+        save(table_of(found["rows"]), out)
+    if found["failed"]:
         raise typer.Exit(FAILED)

@@ -41,17 +41,17 @@ def command(
     from punctura.study.forecast import Forecast
     from punctura.study.report import in_trials
 
-    def on_forecast(told: Forecast) -> None:
-        if told.is_worth_telling:
-            notice(str(told))
+    def on_forecast(forecast: Forecast) -> None:
+        if forecast.is_worth_showing:
+            notice(str(forecast))
 
     loaded = load_plan(plan)
     folder = out or plan.with_suffix(".study")
     if replay is not None:
         scene, recording = replay_row(loaded, replay, folder)
-        told = {"scene": str(scene), "recording": str(recording)}
+        files = {"scene": str(scene), "recording": str(recording)}
         typer.echo(
-            json.dumps(told, indent=2)
+            json.dumps(files, indent=2)
             if as_json
             else f"{scene}\n{recording}: punctura run --recordings {folder} lists it in the studio"
         )

@@ -33,8 +33,8 @@ def plug_in_states(taken: set[str]) -> list[BackendState]:
     named: dict[str, EntryPoint] = {}
     refused = {found: _refusal(found, taken, named.setdefault(_printable(found.name), found)) for found in _all()}
     asked = [found for found, why in refused.items() if not why]
-    said = dict(zip(asked, probe(asked), strict=True))
-    return [_fault(found, why) if why else _state(found, said[found]) for found, why in refused.items()]
+    answers = dict(zip(asked, probe(asked), strict=True))
+    return [_fault(found, why) if why else _state(found, answers[found]) for found, why in refused.items()]
 
 
 def plug_in_names() -> list[str]:
@@ -85,8 +85,8 @@ def _reason(error: BaseException, typed: bool = True) -> str:
 
 
 def _fault(found: EntryPoint, detail: str) -> BackendState:
-    told = _printable(f"{found.value}: {detail}")
-    return BackendState(backend=_printable(found.name), state="fault", detail=told, devices=[])
+    shown = _printable(f"{found.value}: {detail}")
+    return BackendState(backend=_printable(found.name), state="fault", detail=shown, devices=[])
 
 
 def _refusal(found: EntryPoint, taken: set[str], first: EntryPoint) -> str:
@@ -100,14 +100,14 @@ def _refusal(found: EntryPoint, taken: set[str], first: EntryPoint) -> str:
     return ""
 
 
-def _state(found: EntryPoint, said: dict[str, object]) -> BackendState:
-    """said: what its status() returned, or what is wrong with it."""
-    if "error" in said:
-        return _fault(found, str(said["error"]))
-    given, detail, devices = said.get("state"), said.get("detail", ""), said.get("devices", [])
+def _state(found: EntryPoint, answer: dict[str, object]) -> BackendState:
+    """answer: what its status() returned, or what is wrong with it."""
+    if "error" in answer:
+        return _fault(found, str(answer["error"]))
+    given, detail, devices = answer.get("state"), answer.get("detail", ""), answer.get("devices", [])
     state = next((known for known in get_args(DeviceState) if known == given), None)
     if state is None:
-        returned = said.get("returned", f"{{'state': {given!r}, ...}}")
+        returned = answer.get("returned", f"{{'state': {given!r}, ...}}")
         known = ", ".join(get_args(DeviceState))
         return _fault(found, f"status() must return a dict whose state is one of {known}; it is {returned}")
     if not isinstance(devices, list):

@@ -30,18 +30,18 @@ from importlib.metadata import EntryPoint
 MOST = 2000  # characters of a text
 try:
     package = EntryPoint(name, value, group).load()
-    said = package.status()
+    status = package.status()
     if not callable(getattr(package, "open", None)):
-        said = {"error": "it has no function open(rate, device)"}
-    elif isinstance(said, dict) and not isinstance(said.get("detail", ""), str):
-        said = {"error": "detail of status() must be a text"}
-    elif isinstance(said, dict):
-        devices = said.get("devices", [])
-        said = {"state": said.get("state"), "detail": said.get("detail", "")[:MOST],
+        status = {"error": "it has no function open(rate, device)"}
+    elif isinstance(status, dict) and not isinstance(status.get("detail", ""), str):
+        status = {"error": "detail of status() must be a text"}
+    elif isinstance(status, dict):
+        devices = status.get("devices", [])
+        status = {"state": status.get("state"), "detail": status.get("detail", "")[:MOST],
                 "devices": devices if isinstance(devices, str) else [str(device)[:MOST] for device in devices]}
     else:
-        said = {"returned": repr(said)[:MOST]}
-    answer = json.dumps(said)
+        status = {"returned": repr(status)[:MOST]}
+    answer = json.dumps(status)
 except BaseException as error:  # also SystemExit and CancelledError
     try:
         answer = json.dumps({"error": f"{type(error).__name__}: {error}"})
@@ -70,9 +70,12 @@ def probe(packages: Sequence[EntryPoint]) -> list[dict[str, object]]:
 @contextlib.contextmanager
 def _process(package: EntryPoint) -> Iterator[subprocess.Popen[bytes]]:
     """The process that asks a package. It ends with the block at the latest."""
-    told = json.dumps([package.name, package.value, package.group, [str(folder) for folder in sys.path]])
+    query = json.dumps([package.name, package.value, package.group, [str(folder) for folder in sys.path]])
     process = subprocess.Popen(
-        [sys.executable, "-c", _PROGRAM, told], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, start_new_session=True
+        [sys.executable, "-c", _PROGRAM, query],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
     )
     try:
         yield process
@@ -90,11 +93,11 @@ def _process(package: EntryPoint) -> Iterator[subprocess.Popen[bytes]]:
 
 def _answer(process: subprocess.Popen[bytes], ends_at: float) -> dict[str, object]:
     try:
-        said, _ = process.communicate(timeout=max(0.0, ends_at - time.monotonic()))
+        output, _ = process.communicate(timeout=max(0.0, ends_at - time.monotonic()))
     except subprocess.TimeoutExpired:
         return {"error": f"no answer from status() within {STATUS_S:g} s"}
     try:
-        answer = json.loads(said)
+        answer = json.loads(output)
     except ValueError:
         return {"error": f"status() ended its process, with status {process.returncode}"}
     return answer if isinstance(answer, dict) else {"error": f"status() answered {answer!r}"}

@@ -65,14 +65,14 @@ class Fitted:
         return float(self.trace.depth[self.segments.contact])
 
 
-def fitted(trace: Trace, needle: Needle, membranes: int | Literal["auto"], tell: Callable[[str], None]) -> Fitted:
+def fitted(trace: Trace, needle: Needle, membranes: int | Literal["auto"], progress: Callable[[str], None]) -> Fitted:
     """Fits K06, as identify() chooses it, and all rivals. Raises TraceError."""
-    found = identify(trace, needle, membranes, tell)
+    found = identify(trace, needle, membranes, progress)
     segments = segment(trace)
     fits = []
     with one_thread("punctura.rivals"):
         for kind in kinds().values():
-            tell(kind.title)
+            progress(kind.title)
             fits.append(fit_rival(kind, trace, segments))
     return Fitted(trace, segments, found, tuple(fits))
 
@@ -81,7 +81,7 @@ def second_insertion(
     trace: Trace,
     needle: Needle,
     membranes: int | Literal["auto"] = "auto",
-    tell: Callable[[str], None] = lambda _: None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> tuple[Prediction, ...]:
     """Fits the first insertion and predicts the second one at the same place, the best prediction first.
 
@@ -94,7 +94,7 @@ def second_insertion(
             "Record one, or give a folder of traces"
         )
     first = trace[trace.strokes == 0]
-    known = fitted(replace(first, findings=()), needle, membranes, tell)
+    known = fitted(replace(first, findings=()), needle, membranes, progress)
     both = trace[trace.strokes <= 1]
     later = both.strokes == 1
     return _ranked(trace.source, both.force[later], _forces(known, both, 0.0, later))
@@ -114,7 +114,7 @@ def another_trace(all_of_them: Mapping[str, Fitted]) -> tuple[Prediction, ...]:
         every = np.ones(len(held.trace), bool)
         forces = [_forces(one, held.trace, held.contact - one.contact, every)
                   for other, one in all_of_them.items() if other != name]  # fmt: skip
-        means = {key: (each[0], np.mean([told[key][1] for told in forces], axis=0)) for key, each in forces[0].items()}
+        means = {key: (each[0], np.mean([one[key][1] for one in forces], axis=0)) for key, each in forces[0].items()}
         found += _ranked(name, held.trace.force, means)
     return tuple(found)
 
@@ -179,19 +179,19 @@ def records(found: Sequence[Prediction]) -> list[PredictionRecord]:
 
 def means(found: Sequence[Prediction]) -> list[PredictionRecord]:
     """The mean of each model over the traces, the best first. The title of K06 is its own: extensions differ."""
-    told: list[PredictionRecord] = []
+    found_means: list[PredictionRecord] = []
     for name in dict.fromkeys(one.name for one in found):
         of_it = [one for one in found if one.name == name]
         title = of_it[0].title if len({one.title for one in of_it}) == 1 else "K06 with what each trace asks for"
-        told.append({"name": name, "title": title, "trace": f"{len(of_it)} traces",
+        found_means.append({"name": name, "title": title, "trace": f"{len(of_it)} traces",
                      "rmse_N": float(np.mean([one.rmse for one in of_it])),
                      "rmse_share_of_peak": float(np.mean([one.rmse_share for one in of_it]))})  # fmt: skip
-    return sorted(told, key=lambda one: one["rmse_N"])
+    return sorted(found_means, key=lambda one: one["rmse_N"])
 
 
-def in_words(what: str, told: Sequence[PredictionRecord]) -> str:
+def in_words(what: str, rows: Sequence[PredictionRecord]) -> str:
     """One line a model, for a reader."""
-    width = max(len(one["title"]) for one in told)
+    width = max(len(one["title"]) for one in rows)
     lines = [f"{one['title']:{width}}  {one['rmse_N']:10.4g} N  {100 * one['rmse_share_of_peak']:6.2f} % of the peak"
-             for one in told]  # fmt: skip
+             for one in rows]  # fmt: skip
     return "\n".join([what, *(f"  {line}" for line in lines)])

@@ -95,8 +95,8 @@ def _domain_problems(data: Mapping[str, object], unsound: set[str]) -> list[Prob
             continue
         key_path = parts.keys.get(path, path)
         given = _lookup(data, key_path)
-        told = value if given is None else shown(given)
-        problems.append(Problem(key_path, told, reason + _bound_in_unit(key_path, value)))
+        shown_value = value if given is None else shown(given)
+        problems.append(Problem(key_path, shown_value, reason + _bound_in_unit(key_path, value)))
     return problems
 
 

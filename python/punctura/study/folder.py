@@ -50,12 +50,12 @@ class Folder:
                 raise StudyError(f"{self.path}: another run of this study is going on; wait for it")
             yield
         except OSError as error:
-            raise self._told(error) from None
+            raise self._with_advice(error) from None
         finally:
             if descriptor is not None:
                 os.close(descriptor)
 
-    def _told(self, error: OSError) -> Exception:
+    def _with_advice(self, error: OSError) -> Exception:
         """The error with what to do, if it is of this folder."""
         place = Path(os.fsdecode(error.filename)) if isinstance(error.filename, str | bytes) else self.path
         if error.errno in (errno.ENOSPC, errno.EDQUOT):

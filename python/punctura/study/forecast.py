@@ -1,4 +1,4 @@
-"""How long a study will take and how much disk, told after its first chunk."""
+"""How long a study will take and how much disk: shown after its first chunk."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Forecast:
     free: int  # bytes of the disk
 
     @property
-    def is_worth_telling(self) -> bool:
+    def is_worth_showing(self) -> bool:
         """Whether it takes long, or the disk may be too small."""
         return (self.seconds or 0.0) > WORTH_S or self.bytes > 0.9 * self.free
 

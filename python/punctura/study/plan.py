@@ -127,10 +127,10 @@ def _variable(i: int, one: VariableTable, method: str) -> Iterator[Problem]:
     for key in ("mean", "sd", "median", "sigma"):
         if getattr(one, key) is not None and key not in _NEEDED[one.distribution]:
             yield Problem(f"{at}.{key}", float(getattr(one, key)), f"is not for a {one.distribution} distribution")
-    strange = [k for k in ("low", "high", "mean", "sd", "median", "sigma") if not _is_finite(getattr(one, k))]
-    for key in strange:  # a Decimal that is no number compares with nothing
+    not_finite = [k for k in ("low", "high", "mean", "sd", "median", "sigma") if not _is_finite(getattr(one, k))]
+    for key in not_finite:  # a Decimal that is no number compares with nothing
         yield Problem(f"{at}.{key}", float(getattr(one, key)), "must be a finite number")
-    if strange:
+    if not_finite:
         return
     for key in ("sd", "median", "sigma"):
         if getattr(one, key) is not None and not getattr(one, key) > 0:

@@ -42,12 +42,12 @@ def write_report(plan: Plan, folder: Folder) -> tuple[Path, int]:
         good = column[np.isfinite(column)]
         if len(good):
             numbers = [good.mean(), good.std(), *np.quantile(good, [0.05, 0.5, 0.95])]
-            told = " | ".join(f"{x:.4g}" for x in numbers)
+            cells = " | ".join(f"{x:.4g}" for x in numbers)
         else:
-            told = " | ".join(["-"] * 5)
+            cells = " | ".join(["-"] * 5)
         if (picture := draw(plan, folder, name, column, values)) is not None:
             pictures.append(f"![{name}]({picture.relative_to(folder.path).as_posix()})")
-        lines.append(f"| {name} | {len(column)} | {len(column) - len(good)} | {told} |")
+        lines.append(f"| {name} | {len(column)} | {len(column) - len(good)} | {cells} |")
         if plan.file.method == "sobol":
             indices += _indices(plan, name, column)
     lines += ["", f"A fault ended {in_trials(faults)}."]

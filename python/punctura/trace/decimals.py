@@ -54,7 +54,7 @@ def _shown(cell: str) -> tuple[str, bool]:
 
 
 def number(cell: Any, decimal: Decimal = ".", asked: bool = False) -> float:
-    """The cell as a number; NaN if it is none. asked: the user said what the decimal mark is.
+    """The cell as a number; NaN if it is none. asked: the user stated the decimal mark.
 
     Marks between thousands are left out. Raises DoubtfulNumber for 1.234 among decimal commas, unless asked.
     """

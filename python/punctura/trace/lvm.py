@@ -59,14 +59,14 @@ def _names(names: list[str], header: dict[str, list[str]]) -> list[str]:
     names = names[: names.index("Comment")] if "Comment" in names else [name for name in names if name]
     units, channel = header.get("Y_Unit_Label", []), 0
     time = "s" if header.get("X_Dimension", ["Time"])[:1] in ([], [""], ["Time"]) else ""
-    told = []
+    labelled = []
     for name in names:
         if name == "X_Value":
-            told.append(with_unit(name, time))
+            labelled.append(with_unit(name, time))
         else:
-            told.append(with_unit(name, units[channel] if channel < len(units) else ""))
+            labelled.append(with_unit(name, units[channel] if channel < len(units) else ""))
             channel += 1
-    return told
+    return labelled
 
 
 def _number(header: dict[str, list[str]], key: str) -> float:

@@ -59,31 +59,31 @@ def _row(name: str, numbers: InsertionNumbers) -> Row:
 
 def measured(paths: Sequence[Path], reading: Reading, angle: float = 0.0) -> MeasuredRecord:
     """The rows of several files; each sheet of a workbook is a trace. A file that cannot be read stops no other."""
-    told: MeasuredRecord = {"rows": [], "folder": [], "findings": {}, "failed": {}}
+    found: MeasuredRecord = {"rows": [], "folder": [], "findings": {}, "failed": {}}
     for path in paths:
         name = as_text(path.name)
         try:
-            _add(told, path, name, reading, angle)
+            _add(found, path, name, reading, angle)
         except SheetError as several:
             if reading.sheet is not None:
-                told["failed"][name] = str(several)
+                found["failed"][name] = str(several)
                 continue
             for sheet in several.sheets:
                 try:
-                    _add(told, path, f"{name}: {sheet}", replace(reading, sheet=sheet), angle)
+                    _add(found, path, f"{name}: {sheet}", replace(reading, sheet=sheet), angle)
                 except Exception as error:
-                    told["failed"][f"{name}: {sheet}"] = explain(error, PATIENCE_S)
+                    found["failed"][f"{name}: {sheet}"] = explain(error, PATIENCE_S)
         except Exception as error:
-            told["failed"][name] = explain(error, PATIENCE_S)
-    if len({row["trace"] for row in told["rows"]}) > 1:
-        told["folder"] = spread(told["rows"])
-    return told
+            found["failed"][name] = explain(error, PATIENCE_S)
+    if len({row["trace"] for row in found["rows"]}) > 1:
+        found["folder"] = spread(found["rows"])
+    return found
 
 
-def _add(told: MeasuredRecord, path: Path, name: str, reading: Reading, angle: float) -> None:
+def _add(found: MeasuredRecord, path: Path, name: str, reading: Reading, angle: float) -> None:
     trace = read_as(path, reading)
-    told["rows"] += rows_of(trace, name, angle)
-    told["findings"][name] = [str(finding) for finding in trace.findings]
+    found["rows"] += rows_of(trace, name, angle)
+    found["findings"][name] = [str(finding) for finding in trace.findings]
 
 
 def spread(rows: Sequence[Row]) -> list[SpreadRecord]:
@@ -118,21 +118,21 @@ def table_of(rows: Sequence[Row]) -> pa.Table:
     return pa.Table.from_arrays(held, names)
 
 
-def in_words(told: MeasuredRecord) -> str:
+def in_words(found: MeasuredRecord) -> str:
     """The rows, and the spread of a folder, as lines for a reader, in mm, N, N/mm and mJ."""
     lines = []
-    for row in told["rows"]:
+    for row in found["rows"]:
         lines.append(f"{row['trace']}, insertion {row['insertion']}:")
         lines += [
             f"  {_plain(name):20} {_shown(name, row[name])}" for name in row if name not in ("trace", "insertion")
         ]
-    for one in told["folder"]:
+    for one in found["folder"]:
         name, sd = one["name"], "-" if one["sd"] is None else _shown(one["name"], one["sd"])
         between = f"{_shown(name, one['least'])} to {_shown(name, one['greatest'])}"
         lines.append(f"{one['traces']} traces, insertion {one['insertion']}: {_plain(name)}: "
                      f"mean {_shown(name, one['mean'])}, sd {sd}, {between}")  # fmt: skip
-    lines += [f"{name}: {finding}" for name, all_of_it in told["findings"].items() for finding in all_of_it]
-    lines += [f"{name}: {reason}" for name, reason in told["failed"].items()]
+    lines += [f"{name}: {finding}" for name, all_of_it in found["findings"].items() for finding in all_of_it]
+    lines += [f"{name}: {reason}" for name, reason in found["failed"].items()]
     return "\n".join(lines)
 
 

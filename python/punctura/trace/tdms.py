@@ -45,15 +45,15 @@ def read_tdms(path: Path, reading: Reading) -> Table:
 @contextlib.contextmanager
 def _first_warning() -> Iterator[list[str]]:
     """Takes the first warning of npTDMS, which else prints them all, with bytes of the file."""
-    told: list[str] = []
+    seen: list[str] = []
     handler = logging.Handler(logging.WARNING)
-    handler.emit = lambda record: told.append(record.getMessage()) if not told else None  # type: ignore[method-assign]
+    handler.emit = lambda record: seen.append(record.getMessage()) if not seen else None  # type: ignore[method-assign]
     logger, console = logging.getLogger("nptdms"), importlib.import_module("nptdms.log").log_manager.console_handler
     level = console.level
     logger.addHandler(handler)
     console.setLevel(logging.CRITICAL + 1)
     try:
-        yield told
+        yield seen
     finally:
         console.setLevel(level)
         logger.removeHandler(handler)

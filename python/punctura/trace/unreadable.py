@@ -34,8 +34,8 @@ def unreadable(path: Path, kind: str, error: Exception) -> TraceError:
             f"{path}: is no {kind} file, although its name ends in {path.suffix}. If it is another kind of file, give "
             "it that ending, for example .csv; else export it again"
         )
-    said = (str(error).splitlines() or [type(error).__name__])[0].rstrip(".")
+    cause = (str(error).splitlines() or [type(error).__name__])[0].rstrip(".")
     return TraceError(
-        f"{path}: is damaged or cut off: it begins as {kind}, and the rest cannot be read ({said}). Copy it again, or "
+        f"{path}: is damaged or cut off: it begins as {kind}, and the rest cannot be read ({cause}). Copy it again, or "
         "export it again"
     )

@@ -29,9 +29,9 @@ SOME = 4  # traces, in every run of the tests
 def test_intervals_of_95_percent_hold_the_truth(given, level):
     rows = [row for seed in range(1, TRACES + 1) for row in tried(seed, given)]
     for kind in {row.kind for row in rows}:
-        told = [row for row in rows if row.kind == kind and row.told]
-        least = binom.ppf(CHANCE, len(told), level)
-        assert sum(row.held for row in told) >= least, kind
+        shown = [row for row in rows if row.kind == kind and row.identifiable]
+        least = binom.ppf(CHANCE, len(shown), level)
+        assert sum(row.held for row in shown) >= least, kind
 
 
 @pytest.mark.statistics
@@ -39,13 +39,13 @@ def test_what_no_method_could_tell_is_never_called_identifiable():
     rows = [row for seed in range(1, TRACES + 1) for row in tried(seed, Conditions(early=True))]
     hidden = [row for row in rows if row.hidden]
     assert len(hidden) > 200
-    assert not any(row.told for row in hidden)
+    assert not any(row.identifiable for row in hidden)
 
 
 def test_intervals_hold_the_truth_with_slow_noise():
     rows = [row for seed in range(1, SOME + 1) for row in tried(seed, Conditions(drift=0.03))]
-    told = [row for row in rows if row.told]
-    assert len(told) > 4 * SOME and sum(row.held for row in told) >= len(told) - 2
+    shown = [row for row in rows if row.identifiable]
+    assert len(shown) > 4 * SOME and sum(row.held for row in shown) >= len(shown) - 2
 
 
 def test_two_explanations_of_a_rise_leave_its_spring_unknown():

@@ -170,7 +170,7 @@ def test_what_the_driver_says_later_is_told_after_the_fault(capsys):
 
     tape = Tape(None, Line())
     for fault in ("ticks have ceased", "ticks have ceased", "ticks have ceased: the cable is out"):
-        tape.tell_fault(fault)
+        tape.report_fault(fault)
     assert capsys.readouterr().err == "punctura: ticks have ceased\npunctura: the cable is out\n"
 
 

@@ -122,16 +122,16 @@ def test_the_first_chunk_tells_how_long_and_how_much_disk_the_others_take(tmp_pa
     out = tmp_path / "out"
     run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, on_forecast=told.append)
     assert [one.trials for one in told] == [4]
-    assert told[0].seconds is not None and 0 < told[0].seconds < 60 and not told[0].is_worth_telling
+    assert told[0].seconds is not None and 0 < told[0].seconds < 60 and not told[0].is_worth_showing
     assert 0.5 * (out / "trials.parquet").stat().st_size < told[0].bytes < told[0].free
     assert shares == sorted(shares) and 0 < shares[0] < 0.1 and shares[-1] == 1
 
 
 def test_a_long_study_and_a_small_disk_are_told() -> None:
     long = Forecast(99_000_000, 25_000.0, 8 * 10**9, 9 * 10**10)
-    assert long.is_worth_telling and str(long) == "99000000 trials are left: they need about 6.9 h and 8 GB of disk"
+    assert long.is_worth_showing and str(long) == "99000000 trials are left: they need about 6.9 h and 8 GB of disk"
     full = Forecast(10, None, 5 * 10**8, 4 * 10**8)
-    assert full.is_worth_telling and "they need 0.5 GB of disk, and 0.4 GB are free: name fewer results" in str(full)
+    assert full.is_worth_showing and "they need 0.5 GB of disk, and 0.4 GB are free: name fewer results" in str(full)
 
 
 def test_damaged_files_are_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
