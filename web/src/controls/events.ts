@@ -28,7 +28,8 @@ export function eventList(app: App): HTMLElement {
   const row = (event: MembraneEvent): HTMLLIElement => {
     const { word, force } = eventWords(event, app.source.value.history);
     const go = (): void => {
-      if (!plots.jump(event.tick)) app.say(`This moment is too old for the plots: they keep ${keptWords(app.live)}.`);
+      if (!plots.jump(event.tick))
+        app.notify(`This moment is too old for the plots: they keep ${keptWords(app.live)}.`);
     };
     return element(
       "li",

@@ -34,7 +34,7 @@ export const exercisesPanel: Panel = (host, app) => {
       group: person.group.value,
     });
     if (reply && !reply.ok && reply.problems.length)
-      app.say(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
+      app.notify(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
     await readList(); // an exercise file may have changed
   };
   const open = (result: Result): void => {
@@ -121,13 +121,13 @@ export const exercisesPanel: Panel = (host, app) => {
     await past.show(person);
     // A page without control gets a notice instead of a dialog.
     if (!app.control.value.you) {
-      app.say(`${titleOf(status.exercise)}: the attempt is over.`);
+      app.notify(`${titleOf(status.exercise)}: the attempt is over.`);
       return;
     }
     try {
       open(await app.api.json<Result>(resultPath(status.result)));
     } catch (error) {
-      app.say(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
+      app.notify(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
     }
   });
 };

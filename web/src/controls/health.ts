@@ -84,9 +84,9 @@ export const healthPanel: Panel = (host, app) => {
   host.append(nothing, all);
 
   app.hello.watch((hello) => hello && limits.show(hello.limits));
-  const tellForce = (): void => setForce(app.fault.value ? "Fault: no force" : (STATES[servoState(app)]?.words ?? "–"));
-  app.fault.watch(tellForce);
-  let told = "";
+  const showForce = (): void => setForce(app.fault.value ? "Fault: no force" : (STATES[servoState(app)]?.words ?? "–"));
+  app.fault.watch(showForce);
+  let shown = "";
   app.status.watch((status) => {
     all.hidden = status === null;
     nothing.hidden = status !== null;
@@ -106,7 +106,7 @@ export const healthPanel: Panel = (host, app) => {
     setLost(status.lost.toLocaleString("en"), status.lost > 0);
     setDropped(status.dropped.toLocaleString("en"), status.dropped > 0);
     setViewers(String(status.viewers));
-    tellForce();
+    showForce();
     setHand(HANDS[status.hand]);
     secondBox.hidden = status.second === null;
     if (status.second) {
@@ -120,8 +120,8 @@ export const healthPanel: Panel = (host, app) => {
       compute.show(status.compute, 1 / nominal);
     }
     const now = status.statements.join("\n");
-    if (now !== told) {
-      told = now;
+    if (now !== shown) {
+      shown = now;
       statements.replaceChildren(...now.split("\n").map((text) => element("li", {}, text)));
     }
   });

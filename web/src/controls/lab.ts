@@ -34,11 +34,11 @@ const comparisons: Panel = (host, app) => {
     bar.value = 0;
     words.textContent = "computing…";
     try {
-      const told = (share: number, run: string): void => {
+      const report = (share: number, run: string): void => {
         bar.value = share;
         words.textContent = run;
       };
-      openComparison(app, job, title, await compute(app.api, job, told, stop.signal));
+      openComparison(app, job, title, await compute(app.api, job, report, stop.signal));
     } catch (error) {
       if (!stop.signal.aborted) trouble.textContent = wordsOf(error);
     } finally {

@@ -51,7 +51,7 @@ function show(root: HTMLElement, app: App): () => void {
     again,
     close,
   );
-  const tell = (): void => {
+  const show = (): void => {
     const { done, ready } = progress;
     steps.forEach((step, i) => {
       step.className = i < done ? "done" : "";
@@ -72,14 +72,14 @@ function show(root: HTMLElement, app: App): () => void {
     if (progress.pop) showAgain(app, progress.pop);
   });
   const ends = [
-    hand.barred.watch(tell),
-    app.source.watch(tell),
-    app.live.scene.watch(tell),
+    hand.barred.watch(show),
+    app.source.watch(show),
+    app.live.scene.watch(show),
     app.exercise.watch((exercise) => {
       bar.hidden = exercise?.running ?? false; // an exercise has instructions of its own
     }),
     everyFrame(() => {
-      if (!bar.hidden && app.live.history.length && progress.follow(app.live)) tell();
+      if (!bar.hidden && app.live.history.length && progress.follow(app.live)) show();
     }),
   ];
   const finish = (): void => {

@@ -163,7 +163,7 @@ export const forceDepthPlot: Panel = (host, app) => {
   const turn = turns();
   let seen = "";
   let still = "";
-  let told = 0;
+  let comparedAt = 0;
   let back = "";
   let backEnd = 0;
   let backAt = 0;
@@ -202,8 +202,8 @@ export const forceDepthPlot: Panel = (host, app) => {
       pen.box(Math.min(x1, x2), Math.min(y1, y2), Math.abs(x2 - x1), Math.abs(y2 - y1), theme.accent, 0.2);
     }
     read();
-    if (time - told > 250) {
-      told = time;
+    if (time - comparedAt > 250) {
+      comparedAt = time;
       const apart = difference(history, window.first, window.end);
       compared.textContent = apart
         ? `solvers differ by ${newton(apart.rms, 4)} rms, ${newton(apart.largest, 3)} at most`

@@ -43,7 +43,7 @@ function excerptAround(source: Source, event: MembraneEvent): Source | null {
 export function showAgain(app: App, event: MembraneEvent): boolean {
   const made = excerptAround(app.source.value, event);
   if (made) app.source.value = made;
-  else app.say(`This pop is too old to be shown again: the page keeps ${keptWords(app.live)}.`);
+  else app.notify(`This pop is too old to be shown again: the page keeps ${keptWords(app.live)}.`);
   return made !== null;
 }
 
@@ -52,7 +52,7 @@ export function showLastAgain(app: App): void {
   const { value: source } = app.source;
   const pop = source.excerpt?.event ?? lastPop(source);
   if (pop) showAgain(app, pop);
-  else app.say("There was no pop yet.");
+  else app.notify("There was no pop yet.");
 }
 
 /** Goes back to the source that the excerpt is a part of. */

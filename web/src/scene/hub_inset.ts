@@ -36,8 +36,8 @@ export function hubInset(host: HTMLElement): (state: NeedleState | null) => void
       last = key;
       picture.replaceChildren(...(look === "tuohy" ? syringe(state) : hub(state)));
     }
-    const said = insetWords(state);
-    if (words.textContent !== said) words.textContent = said;
+    const text = insetWords(state);
+    if (words.textContent !== text) words.textContent = text;
   };
 }
 

@@ -30,12 +30,12 @@ export function spoken(host: HTMLElement): (moment: Moment, scene: SceneView, no
   const region = element("div", { class: "only-read", "aria-live": "polite", role: "status" });
   host.append(region);
   let last = "";
-  let said = 0;
+  let spokenAt = 0;
   return (moment, scene, now) => {
     const key = moment.membranes.map(({ phase }) => phase).join();
-    if (key === last || now - said < INTERVAL_MS) return;
+    if (key === last || now - spokenAt < INTERVAL_MS) return;
     last = key;
-    said = now;
+    spokenAt = now;
     region.textContent = sentence(moment, scene);
   };
 }

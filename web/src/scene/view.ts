@@ -41,7 +41,7 @@ export const view: Panel = (host, app) => {
   const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });
   const coarser = element("p", { class: "view-coarser", hidden: true, title: COARSER });
   host.append(trouble, coarser);
-  const tell = (words: string): void => {
+  const showTrouble = (words: string): void => {
     trouble.textContent = words;
     trouble.hidden = words === "";
   };
@@ -52,7 +52,7 @@ export const view: Panel = (host, app) => {
       host,
       theme,
       () => orbit.resize(host.clientWidth, host.clientHeight),
-      (gone) => tell(gone ? "The graphics card is lost. The picture returns with it; the run goes on." : ""),
+      (gone) => showTrouble(gone ? "The graphics card is lost. The picture returns with it; the run goes on." : ""),
       (words) => {
         coarser.textContent = words;
         coarser.hidden = words === "";
@@ -61,7 +61,7 @@ export const view: Panel = (host, app) => {
   } catch {
     canvas.hidden = true;
     help.hidden = true;
-    tell("No 3D view: this browser has no WebGL. Plots, phases and all controls work without it.");
+    showTrouble("No 3D view: this browser has no WebGL. Plots, phases and all controls work without it.");
     const speak = spoken(host);
     followInWords(app, speak);
     return;

@@ -31,7 +31,7 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
   let shown: Shown | null = null;
   let drawn = "";
   let drawnAt = 0;
-  let saidAt = 0;
+  let describedAt = 0;
   let size = { width: 0, height: 0 };
 
   const toNeedle = (across: boolean): void => {
@@ -75,10 +75,10 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
       if (shown) probe.picture.value = samePicture(probe.picture.value, shown.frame);
       if (quality.judge(performance.now() - before)) less.hidden = quality.level === 0;
     }
-    if (shown && now - saidAt > WORDS_MS) {
-      saidAt = now;
-      const said = pictureWords(shown.span, shown.tissue, shown.dents);
-      if (words.textContent !== said) words.textContent = said;
+    if (shown && now - describedAt > WORDS_MS) {
+      describedAt = now;
+      const text = pictureWords(shown.span, shown.tissue, shown.dents);
+      if (words.textContent !== text) words.textContent = text;
     }
   });
 }

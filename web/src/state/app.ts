@@ -76,14 +76,14 @@ export class App {
     return now?.running === true && now.blind === true;
   }
 
-  /** Sends a request, and tells the user if it is refused. */
+  /** Sends a request, and shows the reason if it is refused. */
   async ask(request: Ask): Promise<Reply | null> {
     try {
       const reply = await this.engine.ask(request);
-      if (!reply.ok && reply.problems.length === 0) this.say(reply.text || "refused");
+      if (!reply.ok && reply.problems.length === 0) this.notify(reply.text || "refused");
       return reply;
     } catch (error) {
-      this.say(error instanceof Error ? error.message : String(error));
+      this.notify(error instanceof Error ? error.message : String(error));
       return null;
     }
   }
@@ -98,7 +98,8 @@ export class App {
     this.source.value = this.live;
   }
 
-  say(text: string): void {
+  /** Adds a notice, the newest first. */
+  notify(text: string): void {
     this.notices.value = [text, ...this.notices.value].slice(0, 50);
   }
 
@@ -152,7 +153,7 @@ export class App {
         this.exercise.value = message;
         break;
       case "notice":
-        this.say(message.text);
+        this.notify(message.text);
         break;
     }
   }

@@ -56,8 +56,8 @@ export class Api {
 
 async function reasonOf(response: Response): Promise<string> {
   const text = await response.text().catch(() => "");
-  const said = text.startsWith("{") ? (JSON.parse(text) as { text?: string; error?: string }) : { text };
-  const words = (said.text ?? said.error ?? "").trim();
+  const body = text.startsWith("{") ? (JSON.parse(text) as { text?: string; error?: string }) : { text };
+  const words = (body.text ?? body.error ?? "").trim();
   if (words && words.length < 300 && !words.startsWith("<")) return words;
   return response.status === 404 ? "There is no such file any more." : `The studio answers ${response.status}.`;
 }

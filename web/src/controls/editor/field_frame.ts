@@ -52,7 +52,7 @@ export function fieldFrame(field: Field, id: string): Frame {
   );
   let typed = "";
   let found = "";
-  const tell = (): void => {
+  const show = (): void => {
     const text = typed || found;
     if (error.textContent === text) return;
     error.textContent = text;
@@ -68,11 +68,11 @@ export function fieldFrame(field: Field, id: string): Frame {
     attributes: { id, "aria-describedby": `${helpId} ${errorId}` },
     complain: (text) => {
       found = text;
-      tell();
+      show();
     },
     reject: (text) => {
       typed = text;
-      tell();
+      show();
     },
   };
 }

@@ -82,7 +82,7 @@ export function expertChoice(app: App, exercise: ExerciseOverview, changed: () =
 
 /** Says what is wrong with a recording; `ask` has said any other refusal. */
 function tellProblems(app: App, reply: Reply | null): void {
-  if (reply && !reply.ok && reply.problems.length) app.say(reply.problems.map(({ reason }) => reason).join(" "));
+  if (reply && !reply.ok && reply.problems.length) app.notify(reply.problems.map(({ reason }) => reason).join(" "));
 }
 
 /** The curves of the expert's run, in its own time; null without one, or for the expert's run itself. */

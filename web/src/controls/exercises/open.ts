@@ -49,7 +49,7 @@ export function openPart(app: App, opened: (name: string) => Promise<void>): HTM
     replace.hidden = true;
     complain();
     if (app.exercise.value?.running) {
-      app.say(`${file.name} was not opened: an exercise is running; end it first.`); // this part is hidden
+      app.notify(`${file.name} was not opened: an exercise is running; end it first.`); // this part is hidden
       return;
     }
     const block = blockOf(app);

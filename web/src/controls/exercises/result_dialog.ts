@@ -127,8 +127,8 @@ async function drawTrace(
   }
   place.append(element("span", { class: "quiet" }, "Loading the attempt…"));
   try {
-    const told = await app.api.get(tracePath(result), { signal });
-    const trace = (await told.json()) as RecordingTrace;
+    const response = await app.api.get(tracePath(result), { signal });
+    const trace = (await response.json()) as RecordingTrace;
     const entries = await app.api.json<RecordingEntry[]>("/api/recordings");
     const layers = layersOf(trace.membranes);
     const space = exercise && spaceOf(layers, exercise);
@@ -160,7 +160,7 @@ async function fetchWhole(
     };
     return (await fetchSource(app.api, entry, progress, signal)).source;
   } catch (error) {
-    if (!signal.aborted) app.say(`Cannot load the attempt: ${wordsOf(error)}`);
+    if (!signal.aborted) app.notify(`Cannot load the attempt: ${wordsOf(error)}`);
     return null;
   } finally {
     line.remove();

@@ -8,7 +8,7 @@ import { soundOf } from "./sound.ts";
 export const askSound: Panel = (root, app) => {
   const sound = soundOf(app);
   const yes = (): void => {
-    void sound.switchOn().catch(() => app.say("This browser does not let the page play sound."));
+    void sound.switchOn().catch(() => app.notify("This browser does not let the page play sound."));
   };
   const button = (words: string, kind: string, act: () => void): HTMLElement =>
     element("button", { type: "button", class: kind, onclick: act }, words);

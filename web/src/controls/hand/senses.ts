@@ -28,7 +28,7 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
   };
   toggle.addEventListener("click", () => {
     const done = sound.wanted.value ? sound.switchOff() : sound.switchOn();
-    void done.catch(() => app.say("This browser does not let the page play sound."));
+    void done.catch(() => app.notify("This browser does not let the page play sound."));
   });
   sound.wanted.watch(show);
 

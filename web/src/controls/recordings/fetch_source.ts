@@ -37,8 +37,8 @@ export async function fetchSource(
   source.history.clear(scene.membranes.length, first);
 
   const response = await api.get(`${path}/ticks`, init);
-  const told = Number(response.headers.get("Content-Length"));
-  const total = told > 0 ? told : overview.ticks * tickBytes(scene.membranes.length);
+  const length = Number(response.headers.get("Content-Length"));
+  const total = length > 0 ? length : overview.ticks * tickBytes(scene.membranes.length);
   const splitter = new FrameSplitter();
   const reader = response.body?.getReader();
   for (let bytes = 0; reader; ) {

@@ -50,7 +50,7 @@ export class Library {
       if (source !== this.app.source.value && source !== this.app.overlay.value) this.fetched.delete(name);
     }
     if (!known && fetched.left > 0)
-      this.app.say(`${entry.name} is too long for this page: the last ${fetched.left} ticks are left out.`);
+      this.app.notify(`${entry.name} is too long for this page: the last ${fetched.left} ticks are left out.`);
     return fetched.source;
   }
 

@@ -35,7 +35,7 @@ export function watchTheme(changed: (theme: Theme) => void): void {
     probe.style.color = colour;
     return getComputedStyle(probe).color;
   };
-  const tell = (): void =>
+  const notify = (): void =>
     changed({
       panel: read(CSS_THEME.panel),
       line: read(CSS_THEME.line),
@@ -45,9 +45,9 @@ export function watchTheme(changed: (theme: Theme) => void): void {
       danger: read(CSS_THEME.danger),
       data: CSS_THEME.data.map(read),
     });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", tell);
-  new MutationObserver(tell).observe(document.documentElement, { attributes: true });
-  tell();
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", notify);
+  new MutationObserver(notify).observe(document.documentElement, { attributes: true });
+  notify();
 }
 
 export const colourOf = (theme: Theme, membrane: number): string => theme.data[membrane % theme.data.length]!;

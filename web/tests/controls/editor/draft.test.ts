@@ -52,9 +52,9 @@ test("another scene takes the draft's place; the same one, as for a recording, k
   const { draft, engine, app } = begin();
   draft.set(FRICTION, 0.2);
   await settle();
-  engine.say({ kind: "scene", scene: { ...app.live.scene.value!, number: 0 }, new_run: true, run: 1 });
+  engine.emit({ kind: "scene", scene: { ...app.live.scene.value!, number: 0 }, new_run: true, run: 1 });
   expect(draft.can.value.undo).toBe(true);
-  engine.say({
+  engine.emit({
     kind: "scene",
     scene: { ...app.live.scene.value!, number: 0, tables: { name: "other" } },
     new_run: true,

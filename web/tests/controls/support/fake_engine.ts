@@ -29,13 +29,13 @@ export class FakeEngine implements Engine {
   start(listener: EngineListener): void {
     this.listener = listener;
     listener.connection({ state: "open" });
-    this.say({ kind: "control", holder: 1, you: true, hand: null });
-    this.say({ kind: "scene", scene: this.scene, new_run: true, run: 0 });
+    this.emit({ kind: "control", holder: 1, you: true, hand: null });
+    this.emit({ kind: "scene", scene: this.scene, new_run: true, run: 0 });
   }
   stop(): void {}
   target(_run: number, _position: Triple, _axis: Triple): void {}
 
-  say(message: Exclude<Message, { kind: "reply" }>): void {
+  emit(message: Exclude<Message, { kind: "reply" }>): void {
     this.listener?.message(message);
   }
 
@@ -48,7 +48,7 @@ export class FakeEngine implements Engine {
     if (problems.length) return { ...reply, ok: false, text: "bad scene", problems };
     this.number += 1;
     this.scene = { ...this.scene, number: this.number, tables: request.tables, laws: this.laws(request.tables) };
-    this.say({ kind: "scene", scene: this.scene, new_run: false, run: 0 });
+    this.emit({ kind: "scene", scene: this.scene, new_run: false, run: 0 });
     return reply;
   }
 

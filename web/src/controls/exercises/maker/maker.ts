@@ -47,7 +47,7 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     });
     note.textContent = left.map(sentence).join(" ");
   };
-  const tell = (reply: Awaited<ReturnType<App["ask"]>>, good: string): boolean => {
+  const showReply = (reply: Awaited<ReturnType<App["ask"]>>, good: string): boolean => {
     if (!reply) return false;
     complain(reply.problems);
     if (reply.ok) note.textContent = [good, reply.text].filter(Boolean).join(" ");
@@ -57,20 +57,20 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   const check = async (): Promise<boolean> => {
     const reply = await app.ask({ do: "check_exercise", tables: tables() });
     toml = String(reply?.data.toml ?? "");
-    return tell(reply, "");
+    return showReply(reply, "");
   };
   const attempt = async (): Promise<void> => {
     const who = { person: person.name.value, group: person.group.value };
     clearTimeout(timer); // a check would clear what the reply says
     const reply = await app.ask({ do: "try_exercise", tables: tables(), ...who });
-    if (tell(reply, "It runs now.")) await changed();
+    if (showReply(reply, "It runs now.")) await changed();
   };
   const save = async (): Promise<void> => {
     clearTimeout(timer);
     const name = nameOf(draft!.title);
     const ask = { do: "save_exercise", name, tables: tables() } as const;
     const reply = await app.ask({ ...ask, replace: replace.checked });
-    if (tell(reply, "")) await changed();
+    if (showReply(reply, "")) await changed();
   };
   const download = async (): Promise<void> => {
     if (!(await check())) return;

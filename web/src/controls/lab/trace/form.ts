@@ -61,7 +61,7 @@ export function questions(app: App, file: FileLine, act: (answers: Answers) => v
     ...(file.roles.length ? [order] : []),
     go,
   );
-  const tell = (complaints: Readonly<Record<string, string>>): void => {
+  const showComplaints = (complaints: Readonly<Record<string, string>>): void => {
     for (const [name, complain] of fields) complain(complaints[name] ?? "");
     form.querySelector<HTMLElement>('[aria-invalid="true"]')?.focus();
   };
@@ -76,14 +76,14 @@ export function questions(app: App, file: FileLine, act: (answers: Answers) => v
       angle: angle.value,
       membranes: membranes.value,
     });
-    if (isComplaints(found)) tell(found);
+    if (isComplaints(found)) showComplaints(found);
     else act(found);
   });
   return {
     root: form,
     complain: (name, text) => {
       if (!fields.has(name)) return false;
-      tell({ [name]: text });
+      showComplaints({ [name]: text });
       return true;
     },
     lock: (locked) => {

@@ -31,13 +31,13 @@ const row = (kind: string, name: string, ...cells: readonly Cell[]): HTMLElement
 export function estimatesTable(estimates: readonly EstimatePart[]): HTMLElement {
   const rows = estimates.map((estimate) => {
     const { value, interval, relative } = estimateWords(estimate);
-    const told = estimate.identifiable ? relative : "not told by this trace";
+    const text = estimate.identifiable ? relative : "not told by this trace";
     return row(
-      estimate.identifiable ? "" : "not-told",
+      estimate.identifiable ? "" : "unidentifiable",
       parameterWords(estimate.name),
       value,
       interval,
-      told,
+      text,
       relative || !estimate.identifiable ? bar(estimate) : "",
     );
   });
