@@ -196,7 +196,7 @@ def in_words(summary: RunSummary) -> str:
     """The summary for a person."""
     lines = [
         f"{summary.scene} on {summary.device}",
-        f"  {summary.ticks} ticks at {summary.rate_hz:g} Hz, {summary.late} late, {summary.gaps} lost; "
+        f"  {summary.ticks} ticks at {summary.rate_hz:g} Hz, {summary.late} late, {summary.lost} lost; "
         f"99.9 % were computed within {summary.compute_p99_9_s * 1e6:.3g} us",
         f"  strongest {felt_force(summary.force_scale)} {summary.felt_peak_N:.3g} N, "
         f"strongest {MODEL_FORCE} {summary.peak_N:.3g} N, "

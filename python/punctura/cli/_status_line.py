@@ -48,5 +48,5 @@ def status_text(summary: RunSummary) -> str:
     thumb = f"  thumb {summary.thumb_N:+.2f} N" if summary.second_device else ""
     return (
         f"{summary.time_s:6.1f} s  {summary.rate_hz:g} Hz  {summary.state}  "
-        f"{felt_force(summary.force_scale)} {x:+.2f} {y:+.2f} {z:+.2f} N{cut}{thumb}  {membranes}  lost {summary.gaps}"
+        f"{felt_force(summary.force_scale)} {x:+.2f} {y:+.2f} {z:+.2f} N{cut}{thumb}  {membranes}  lost {summary.lost}"
     )

@@ -45,7 +45,7 @@ def command(
 
 def _in_words(summary: SimulationSummary) -> str:
     lines = [
-        f"{summary.out}: {summary.rows_out} ticks at {summary.rate_hz:g} Hz, "
+        f"{summary.out}: {summary.ticks} ticks at {summary.rate_hz:g} Hz, "
         f"{summary.start_s:.6g} s to {summary.end_s:.6g} s, strongest force {summary.peak_N:.4g} N"
     ]
     for membrane in summary.membranes:

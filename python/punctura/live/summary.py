@@ -34,7 +34,7 @@ class RunSummary:
     rate_hz: float
     membranes: list[str]
     ticks: int = 0
-    gaps: int = 0  # ticks whose snapshot never came
+    lost: int = 0  # ticks whose snapshot never came
     force_scale: float = 1.0  # how much of the model's force the device gives, before the limits
     felt_peak_N: float = 0.0  # of the felt force
     peak_N: float = 0.0
@@ -72,7 +72,7 @@ class RunSummary:
         if n == 0:
             return
         self.ticks += n
-        self.gaps = int(tick[-1]) + 1 - self.ticks
+        self.lost = int(tick[-1]) + 1 - self.ticks
         self.force_scale = float(ticks.force_scale[-1])
         self.felt_peak_N = max(self.felt_peak_N, strongest(ticks.force, ticks.ceiling))
         self.peak_N = max(self.peak_N, float(np.linalg.norm(ticks.model_force, axis=1).max()))
@@ -99,7 +99,7 @@ class RunSummary:
     def finish(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
         """Takes the loop's report, after it has stopped."""
         report = loop.report()
-        self.gaps = max(self.gaps, report["ticks"] - self.ticks)  # including ticks after the last read
+        self.lost = max(self.lost, report["ticks"] - self.ticks)  # including ticks after the last read
         self.late = report["late"]
         self.compute_p99_9_s = report["compute"]["p99_9"]
         self.period_p50_s = report["period"]["p50"]

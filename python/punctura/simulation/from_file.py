@@ -43,7 +43,7 @@ def simulate_file(
     motion = MotionTable(source) if source.suffix.lower() in TABLES else MotionFile(source)
     even = _survey(motion, progress)
     summary = SimulationSummary(name, str(source), str(target), rate_hz=scene.servo.rate)
-    summary.rows_in = even.count
+    summary.samples = even.count
     summary.membranes = [MembraneSummary(placed.name) for placed in scene.membranes]
     resampler = _resampler(even, scene, summary)
 
@@ -131,9 +131,9 @@ def _parts(motion: MotionFile | MotionTable, resampler: Resampler | None, progre
 
 
 def _add(summary: SimulationSummary, part: _Part, trace: Ticks) -> None:
-    if not summary.rows_out:
+    if not summary.ticks:
         summary.start_s = float(part.time[0])
-    summary.rows_out += len(part.time)
+    summary.ticks += len(part.time)
     summary.end_s = float(part.time[-1])
     summary.peak_N = max(summary.peak_N, float(np.linalg.norm(trace.force, axis=1).max()))
     for i, membrane in enumerate(summary.membranes):

@@ -21,8 +21,8 @@ class SimulationSummary:
     scene: str
     motion: str
     out: str
-    rows_in: int = 0
-    rows_out: int = 0
+    samples: int = 0  # of the motion
+    ticks: int = 0
     motion_rate_hz: float | None = None  # None for a motion of one sample
     rate_hz: float = 0.0
     resampled: bool = False

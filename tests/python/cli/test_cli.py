@@ -147,7 +147,7 @@ def test_simulate_says_in_words_what_it_did(punctura, motion, tmp_path):
 def test_simulate_as_json_is_only_json_on_stdout(punctura, motion, tmp_path):
     done = punctura("simulate", "k06-fig12", "--motion", motion, "--out", tmp_path / "out.parquet", "--json")
     summary = json.loads(done.stdout)
-    assert (summary["rows_in"], summary["rows_out"], summary["resampled"]) == (1000, 1000, False)
+    assert (summary["samples"], summary["ticks"], summary["resampled"]) == (1000, 1000, False)
     assert [m["name"] for m in summary["membranes"]] == ["first membrane", "second membrane"]
     assert done.stderr == ""
 

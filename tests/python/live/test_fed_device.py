@@ -143,7 +143,7 @@ def test_a_live_run_goes_on_beside_the_thread_that_feeds():
     finally:
         over.set()
         feeder.join()
-    assert [(summary.gaps, summary.fault) for summary in seen] == [(0, "")]
+    assert [(summary.lost, summary.fault) for summary in seen] == [(0, "")]
 
 
 def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given():

@@ -27,7 +27,7 @@ def simulated(ticks=4000, **kw):
 
 def test_a_run_ends_with_the_device_and_its_summary_counts_every_tick():
     summary = run_live(simulated(), SCENE)
-    assert (summary.ticks, summary.gaps, summary.fault) == (4000, 0, "")
+    assert (summary.ticks, summary.lost, summary.fault) == (4000, 0, "")
     assert summary.felt_peak_N == pytest.approx(0.73, abs=0.01)
     assert summary.deepest_m[0] > 5e-3
     assert summary.state == "active"
@@ -137,7 +137,7 @@ def test_the_summary_counts_snapshots_that_never_came():
     loop.stop()
     summary.add(listener.read())
     assert summary.ticks == 64
-    assert summary.gaps + listener.lost == 1000 - 64
+    assert summary.lost + listener.lost == 1000 - 64
 
 
 def test_safety_limits_that_would_switch_safety_off_are_refused_with_all_reasons():
@@ -152,7 +152,7 @@ def test_headless_prints_a_summary_a_program_can_read(punctura):
     done = punctura("run", "k06-fig12", "--headless", "--duration", "1.5", "--json")
     assert done.status == 0, done.stderr
     summary = json.loads(done.stdout)
-    assert summary["gaps"] == 0
+    assert summary["lost"] == 0
     assert 0 < summary["ticks"] <= 2500
     assert summary["device"].startswith("simulated")
 

@@ -226,7 +226,7 @@ def interrupted_run(n):
         run_live(device, SCENE, prepare=prepare)
     except Ended as end:
         happened.append("Ended")
-        assert end.summary is None or end.summary.gaps == 0, f"line {n}: the summary lacks ticks"
+        assert end.summary is None or end.summary.lost == 0, f"line {n}: the summary lacks ticks"
     finally:
         sys.settrace(None)
         left_behind = signal.signal(signal.SIGTERM, before)

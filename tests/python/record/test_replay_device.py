@@ -71,7 +71,7 @@ def test_a_recording_that_was_not_finished_can_be_replayed(start):
 def test_a_live_run_on_it_ends_by_itself_and_has_every_tick(start):
     run = start(ticks=800).record()
     summary = run_live(open_for(run.loop.scene, f"replay:{run.path}"), run.loop.scene)
-    assert (summary.ticks, summary.gaps, summary.fault) == (800, 0, "")
+    assert (summary.ticks, summary.lost, summary.fault) == (800, 0, "")
     assert summary.statements[0] == "the force has no effect on a recorded motion"
 
 

@@ -44,7 +44,7 @@ def test_the_result_does_not_depend_on(expected, tmp_path, monkeypatch, form, bl
 
 def test_a_motion_of_one_sample_is_one_tick(write, tmp_path):
     summary = simulate("k06-fig10", write([HEADER, "0.5,0,0.001,0"]), tmp_path / "out.csv")
-    assert (summary.rows_out, summary.motion_rate_hz, summary.resampled) == (1, None, False)
+    assert (summary.ticks, summary.motion_rate_hz, summary.resampled) == (1, None, False)
     _, row = (tmp_path / "out.csv").read_text().splitlines()
     assert row.startswith("0.5,0,0.001,0,0,0,0,-0.001,")
 

@@ -54,7 +54,7 @@ def test_the_result_is_the_model_s_to_the_last_bit(write, tmp_path, suffix):
     np.testing.assert_array_equal(np.column_stack([result[n] for n in ("x_m", "y_m", "z_m")]), position)
     assert_is_the_model(result, load_scene("k06-fig12"), position, [0, -1, 0])
     assert {"outside", "sticking", "sliding_in", "sliding_out"} <= set(result["phase_0"])
-    assert (summary.rows_in, summary.rows_out, summary.resampled, summary.notes) == (5000, 5000, False, [])
+    assert (summary.samples, summary.ticks, summary.resampled, summary.notes) == (5000, 5000, False, [])
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])

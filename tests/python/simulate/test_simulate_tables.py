@@ -37,7 +37,7 @@ def test_a_table_gives_the_forces_of_the_same_csv_file(write, tmp_path, monkeypa
     simulate("k06-fig12", motion, tmp_path / "a.parquet")
     monkeypatch.setattr(motion_table, "ROWS", 1000)
     summary = simulate("k06-fig12", saved(tmp_path, name, rows), tmp_path / "b.parquet")
-    assert summary.rows_in == 3000
+    assert summary.samples == 3000
     assert pq.read_table(tmp_path / "a.parquet").equals(pq.read_table(tmp_path / "b.parquet"))
 
 

@@ -45,7 +45,7 @@ def test_a_motion_at_another_rate_is_resampled_linearly_with_a_note(write, tmp_p
     assert summary.notes == [
         "the motion is sampled at 1000 Hz, the servo runs at 1600 Hz: the motion was resampled linearly"
     ]
-    assert summary.resampled and summary.rows_in == 1000
+    assert summary.resampled and summary.samples == 1000
     new = np.arange(1599) / 1600
     there = np.column_stack([np.interp(new, time, column) for column in position.T])
     result = table(tmp_path / "out.csv", ["time_s", "x_m", "y_m", "z_m", "fy_N"])
@@ -68,7 +68,7 @@ def test_directions_are_resampled_and_stay_of_length_one(write, tmp_path):
 def test_ten_rows_a_second_are_enough(write, tmp_path, rows):
     time, position = strokes(rows, rate=10)
     summary = simulate("k06-fig10", write([HEADER, *rows_of(time, position)]), tmp_path / "out.csv")
-    assert summary.resampled and summary.rows_out == 160 * (rows - 1) + 1
+    assert summary.resampled and summary.ticks == 160 * (rows - 1) + 1
 
 
 def test_a_slow_motion_is_resampled_in_pieces_of_bounded_size():
