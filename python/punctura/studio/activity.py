@@ -66,7 +66,7 @@ class Activities:
         activity.begin(scene)
         self.now = activity
 
-    def tell_idle(self) -> None:
+    def send_idle(self) -> None:
         """Clears the exercise in the pages, unless the outcome of the last one follows."""
         if not self._outcome_follows:
             self._out.send(ExerciseStatus(exercise="", running=False, instruction="", goals=[], result=""))
@@ -98,11 +98,11 @@ class Activities:
             try:
                 outcome = activity.finish()
             finally:
-                self._post(lambda: self._tell(outcome))
+                self._post(lambda: self._send(outcome))
 
         return finish
 
-    def _tell(self, outcome: Outcome) -> None:
+    def _send(self, outcome: Outcome) -> None:
         self._outcome_follows = False
         if self.now is None and outcome.message is not None:
             self._out.send(outcome.message)

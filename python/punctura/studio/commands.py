@@ -95,24 +95,24 @@ def _load(session: Session, loaded: Loaded) -> None:
     known = session.run.notes
     session.begin(loaded)
     for sentence in (*(note for note in session.run.notes if note not in known), *loaded.unusual):
-        _tell(session, sentence)
+        _notice(session, sentence)
 
 
-def _tell(session: Session, sentence: str) -> None:
+def _notice(session: Session, sentence: str) -> None:
     session.out.send(Notice(text=sentence[:1].upper() + sentence[1:]))
 
 
-def _tell_room(session: Session) -> None:
+def _room_notice(session: Session) -> None:
     """Warns the pages if the new run produces so many ticks that some may be lost."""
     if note := room_note(session.run.loop):
-        _tell(session, note)
+        _notice(session, note)
 
 
 def _edit(session: Session, loaded: Loaded) -> Done:
-    told = session.run.loaded.unusual
+    earlier = session.run.loaded.unusual
     session.edit(loaded)
-    for sentence in (sentence for sentence in loaded.unusual if sentence not in told):
-        _tell(session, sentence)
+    for sentence in (sentence for sentence in loaded.unusual if sentence not in earlier):
+        _notice(session, sentence)
     if session.bench.simulated and loaded.scene.servo.rate != session.run.rate:
         return "the new rate takes effect in the next run", {}
     return "", {}
@@ -208,7 +208,7 @@ def _start_recording(session: Session, name: str) -> Done:
     _refuse_second(session)
     loaded = session.run.loaded
     session.begin(loaded, session.run.pose, name, {"title": name, "scene": loaded.tables()})
-    _tell_room(session)
+    _room_notice(session)
     return "", {"recording": name}
 
 
@@ -219,10 +219,10 @@ def _stop_recording(session: Session) -> Future[Done]:
         raise NotNow(f"the {activity.what} is recorded until it ends")
     done: Future[Done] = Future()
 
-    def tell(name: str, status: RecorderStatus) -> None:
+    def finished(name: str, status: RecorderStatus) -> None:
         done.set_result((status.words, {"recording": name, "rows": status.rows, "lost": status.lost}))
 
-    session.end_run(tell)
+    session.end_run(finished)
     session.begin_again()
     return done
 

@@ -19,9 +19,9 @@ LARGEST = 1_000_000  # bytes; an entry has some hundred
 class Experts:
     """Usable from any thread. A damaged file is kept under another name and counts as empty."""
 
-    def __init__(self, folder: Path, tell: Callable[[str], None] = lambda text: None) -> None:
-        """folder: of the results. It is created with the first entry. tell: gets a sentence about a damaged file."""
-        self._tell = tell
+    def __init__(self, folder: Path, on_error: Callable[[str], None] = lambda text: None) -> None:
+        """folder: of the results, created with the first entry. on_error: gets a sentence about a damaged file."""
+        self._on_error = on_error
         self._path = folder.parent / f"{folder.name}-{FILE}"
         self._lock = threading.Lock()
 
@@ -65,7 +65,7 @@ class Experts:
         kept = (self._path.with_name(f"{self._path.stem}-damaged-{k}.json") for k in itertools.count(1))
         free = next(path for path in kept if not os.path.lexists(path))
         self._path.rename(free)
-        self._tell(
+        self._on_error(
             f"The list of experts' runs {self._path} is damaged ({bad}). It is kept as {free.name}, and the list is "
             "empty now. Choose the experts' runs again, or mend the file and rename it."
         )

@@ -139,9 +139,9 @@ class Hub:
 
     def send(self, message: BaseModel) -> None:
         """From any thread: sends to all viewers, and keeps messages that new viewers need."""
-        self.post(lambda: self.tell_all(message))
+        self.post(lambda: self.send_now(message))
 
-    def tell_all(self, message: BaseModel) -> None:
+    def send_now(self, message: BaseModel) -> None:
         kind: str = getattr(message, "kind", "")
         if kind in RETAINED:
             self._retained[kind] = message
@@ -152,7 +152,7 @@ class Hub:
             if getattr(message, "new_run", False):
                 self._events.clear()
         if isinstance(message, Status):
-            self._tell_status(message)
+            self._send_status(message)
             return
         text = message.model_dump_json()
         for viewer in self.viewers.values():
@@ -184,11 +184,11 @@ class Hub:
         self.viewers.pop(viewer.number, None)
         if self.holder == viewer.number:
             self.holder = None
-            self._tell_control()
+            self._send_control()
 
     def take_control(self, viewer: Viewer) -> None:
         self.holder = viewer.number
-        self._tell_control()
+        self._send_control()
 
     def _put_frame(self, data: bytes) -> None:
         for viewer in self.viewers.values():
@@ -200,11 +200,11 @@ class Hub:
         hand = HandPose(position=list(pose[0]), axis=list(pose[1])) if pose else None
         return Control(holder=self.holder, you=you, hand=hand)
 
-    def _tell_control(self) -> None:
+    def _send_control(self) -> None:
         for viewer in self.viewers.values():
             viewer.put(self._control(viewer).model_dump_json())
 
-    def _tell_status(self, status: Status) -> None:
+    def _send_status(self, status: Status) -> None:
         for viewer in self.viewers.values():
             own = status.model_copy(update={"viewers": len(self.viewers), "dropped": viewer.dropped})
             viewer.put(own.model_dump_json(), own.kind)

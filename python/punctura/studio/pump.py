@@ -47,7 +47,7 @@ class Pump:
         self._finder = EventFinder(run.loop.scene, run.rate)
         self._other: OtherSolver | None = None
         self._estimator: Estimator | None = None
-        self._tell_scene: Callable[[], None] | None = None  # called when a tick has taken the new scene
+        self._on_scene: Callable[[], None] | None = None  # called when a tick has taken the new scene
         self._axis: Vector = np.array(run.pose[1])
         self._entered: Vector | None = None
         self._angles = np.full(len(run.loop.scene.membranes), np.nan)
@@ -70,14 +70,14 @@ class Pump:
         self._watch_axis(ticks)
         for event in self._finder.add(ticks):
             self._out.send(MembraneEvent(**event.model_dump()))
-        if self._estimator and (told := self._estimator.add(ticks)):
-            self._out.send(told)
+        if self._estimator and (estimate := self._estimator.add(ticks)):
+            self._out.send(estimate)
         return ticks
 
-    def change(self, scene: Scene, tell: Callable[[], None]) -> Ticks | None:
-        """Call it after an exchange of scenes. It calls `tell` between the ticks of the old and the new scene."""
+    def change(self, scene: Scene, on_change: Callable[[], None]) -> Ticks | None:
+        """Call it after an exchange of scenes. It calls `on_change` between the ticks of the old and the new scene."""
         self._finder.change(scene)
-        self._tell_scene = tell
+        self._on_scene = on_change
         ticks = self.turn()
         self._scene_is_taken()  # needed if no further tick comes
         return ticks
@@ -97,9 +97,9 @@ class Pump:
         return law_curves(scene, self._angles)
 
     def _scene_is_taken(self) -> None:
-        tell, self._tell_scene = self._tell_scene, None
-        if tell is not None:
-            tell()
+        on_change, self._on_scene = self._on_scene, None
+        if on_change is not None:
+            on_change()
             if self._other:
                 self._other.take(self._run.loop.scene)
             if self._estimator:

@@ -52,7 +52,7 @@ class Runs:
     ) -> None:
         """Starts a new run. If it fails, the present scene runs again, and the error is raised.
 
-        record: the name of its recording. remind: tell if the force is still off, because a person asked for this run.
+        record: the name of its recording. remind: send a notice if the force is still off: a person asked for this run.
         """
         path = self.shelf.file(record) if record else None
         self.end_run()
@@ -129,17 +129,17 @@ class Runs:
             return
         self.out.send(no_recording())
 
-        def tell(status: RecorderStatus) -> None:
+        def finished(status: RecorderStatus) -> None:
             if status.words:
                 self.out.send(Notice(text=f"Recording {name}: {status.words}"))
             self.defects.guard(finish_activity)
             if then:
                 then(name, status)
 
-        self.takes.finish(recorder, tell)
+        self.takes.finish(recorder, finished)
 
     def start_run(self, remind: bool = True) -> None:
-        """Starts the present run, which has not ticked yet. remind: tell if the force is still off."""
+        """Starts the present run, which has not ticked yet. remind: send a notice if the force is still off."""
         self.pump = Pump(self.run, self.out, self.kept_ticks)
         self.pump.compare(self.compare)
         self.pump.estimate(self.estimate)
@@ -147,7 +147,7 @@ class Runs:
         self.heard.forget()
         self.arming.begin(self.run.loop)
         self.out.send(no_fault())
-        self.activities.tell_idle()
+        self.activities.send_idle()
         if not self.recording:  # a page that was open before this studio may still show another one's recording
             self.out.send(no_recording())
         self.out.send(scene_message(self.run, self.pump.laws(), new_run=True))

@@ -134,11 +134,11 @@ def run_studio(
     make: Callable[[], StudioServer],
     browser: bool = True,
     duration: float | None = None,
-    tell: Callable[[str], None] = print,
+    report: Callable[[str], None] = print,
 ) -> None:
     """Serves until a signal, which raises Ended after the force is off, or for `duration` (s). Raises StudioError.
 
-    A separate thread ends the run in time, even while `tell` or the browser blocks this one.
+    A separate thread ends the run in time, even while `report` or the browser blocks this one.
     """
     with ends_on_signals() as signals:
         with signals.raised():
@@ -147,7 +147,7 @@ def run_studio(
         try:
             supervisor.start()
             with signals.raised():
-                tell(server.address.url)
+                report(server.address.url)
                 if browser:
                     open_page(server.address.url)
                 supervisor.wait()

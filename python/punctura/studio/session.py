@@ -99,8 +99,8 @@ class Session(Runs):
 
     # Everything below belongs to the worker's thread.
 
-    def _tell_silence(self) -> None:
-        """Tells once that the ticks of the present run have ceased. The loop stops by itself."""
+    def _send_silence(self) -> None:
+        """Reports once that the ticks of the present run have ceased. The loop stops by itself."""
         run, words = self.run, self.run.silence
         if words and run is not self._silent:
             self._silent = run
@@ -138,7 +138,7 @@ class Session(Runs):
             now = time.monotonic()
             self.hand.drive(now)
             self.thumb.turn(self.run.loop, now)
-            self._tell_silence()
+            self._send_silence()
             if now >= pump_at:
                 self.defects.guard(self._take_turn)
                 pump_at = max(pump_at + PUMP_S, now)
@@ -146,14 +146,14 @@ class Session(Runs):
                 self.defects.guard(lambda: self.begin_again(remind=False))
             if now >= status_at:
                 status_at = now + STATUS_S
-                self.defects.guard(self._tell_status)
+                self.defects.guard(self._send_status)
                 if self._rounds.due(self.run.loop.device, bool(self.recording), now):
                     self.defects.guard(lambda: self.begin_again(remind=False))
 
     def _take_turn(self) -> None:
         self.turn(max(AT_ONCE, int(4 * PUMP_S * self.run.rate)))
 
-    def _tell_status(self) -> None:
+    def _send_status(self) -> None:
         self.out.send(status_of(self.run, self.pump.lost, self.arming.armed, self.hand.mode, self.compare))
         if self.run.recorder and self.recording:
             self.out.send(recording_status(self.recording, self.run))

@@ -27,7 +27,7 @@ from punctura.trace.look import look_at
 
 MOST_MEMBRANES = 12
 _OPTION = re.compile(r" \(--[^)]*\)")  # a hint for the command line
-Say = Callable[[IdentifyLine], None]
+Send = Callable[[IdentifyLine], None]
 
 
 class FieldError(ValueError):
@@ -38,23 +38,23 @@ class FieldError(ValueError):
         self.field = field
 
 
-def do(job: TraceJob, say: Say) -> None:
+def do(job: TraceJob, send: Send) -> None:
     """Does a job. Raises FieldError, TraceError, OSError, ModuleNotFoundError."""
     if job.task == "look":
-        say(file_line(job.file, look_at(job.file)))
+        send(file_line(job.file, look_at(job.file)))
         with suppress(PuncturaError):  # then the page must ask first
-            say(trace_line(read_trace(job.file)))
+            send(trace_line(read_trace(job.file)))
         return
     if job.order not in ("recorded", "depth"):
         raise FieldError("order", "the order is recorded or depth")
     needle, membranes = _needle(job), _membranes(job.membranes)
     read = read_trace(job.file, job.columns, job.units, order="depth" if job.order == "depth" else "recorded")
-    say(trace_line(read))
+    send(trace_line(read))
     _refuse_severe(read)
-    found = identify(read, needle, membranes, lambda words: say(StepLine(words=words, share=None)))
-    say(fit_line(found))
-    _compare(found, say)
-    _report(found, say)
+    found = identify(read, needle, membranes, lambda words: send(StepLine(words=words, share=None)))
+    send(fit_line(found))
+    _compare(found, send)
+    _report(found, send)
 
 
 def _needle(job: TraceJob) -> Needle:
@@ -93,31 +93,31 @@ def _refuse_severe(trace: Trace) -> None:
             raise FieldError(f"column.{role}" if finding.kind == "constant" else "", str(finding))
 
 
-def _compare(found: Identification, say: Say) -> None:
+def _compare(found: Identification, send: Send) -> None:
     """The other models, as an addition: without them, the fit is still a result."""
 
-    def tell(share: float) -> None:
-        say(StepLine(words="other models", share=share))
+    def progress(share: float) -> None:
+        send(StepLine(words="other models", share=share))
 
     needle = found.parameters.needle
     try:
-        compared = compare_trace(found.trace, needle=needle, identified=found, progress=tell)
-        say(rivals_line(compared, found))
+        compared = compare_trace(found.trace, needle=needle, identified=found, progress=progress)
+        send(rivals_line(compared, found))
     except PuncturaError as error:
-        say(RivalsLine(rows=[], notes=[words_of(f"the other models could not be fitted: {error}")]))
+        send(RivalsLine(rows=[], notes=[words_of(f"the other models could not be fitted: {error}")]))
 
 
-def _report(found: Identification, say: Say) -> None:
-    say(StepLine(words="report", share=None))
+def _report(found: Identification, send: Send) -> None:
+    send(StepLine(words="report", share=None))
     from punctura.identify.report import report_html  # matplotlib takes long to import
 
-    say(ReportLine(html=report_html(found).decode()))
+    send(ReportLine(html=report_html(found).decode()))
 
 
 def words_of(text: str, file: str = "") -> str:
     """A message as a sentence, without hints for the command line and without the name of the file at its start."""
-    said = _OPTION.sub("", text).removeprefix(f"{file}: ").strip()
-    return said[:1].upper() + said[1:] + ("" if said.endswith((".", "!", "?")) else ".")
+    sentence = _OPTION.sub("", text).removeprefix(f"{file}: ").strip()
+    return sentence[:1].upper() + sentence[1:] + ("" if sentence.endswith((".", "!", "?")) else ".")
 
 
 def main() -> None:
@@ -125,15 +125,15 @@ def main() -> None:
     step_back()
     warnings.simplefilter("ignore")  # of the libraries that read files; what matters is in the findings
 
-    def say(line: IdentifyLine) -> None:
+    def send(line: IdentifyLine) -> None:
         print(line.model_dump_json(), flush=True)
 
     def fail(error: Exception, field: str = "") -> None:
-        say(ErrorLine(text=words_of(explain(error, PATIENCE_S), job.file), field=field))
+        send(ErrorLine(text=words_of(explain(error, PATIENCE_S), job.file), field=field))
 
     job = TraceJob.model_validate_json(sys.stdin.read())
     try:
-        do(job, say)
+        do(job, send)
     except FieldError as error:
         fail(error, error.field)
     except ColumnError as error:
