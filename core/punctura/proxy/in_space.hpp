@@ -197,14 +197,17 @@ constexpr SpaceTick<Scalar> settle_each(const SpaceParams<L, C>& params, SpaceSt
                                         const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth,
                                         const Mask<Scalar>& is_inside) noexcept {
   using namespace lane;
-  SpaceState<L, C> outside = state;
-  const SpaceTick<Scalar> of_outside = settle_outside(params, outside, p);
+  const auto e_prev = state.e;  // a copy of the whole state would take longer than the rest
+  const auto coupling = state.coupling;
+  const SpaceTick<Scalar> of_outside = settle_outside(params, state, p);
+  const auto e = std::exchange(state.e, e_prev);
+  [[maybe_unused]] const auto free_coupling = std::exchange(state.coupling, coupling);
   const SpaceTick<Scalar> of_inside = settle_inside(params, state, p, p_prev, f_star, friction, depth);
-  state.phase = select(is_inside, state.phase, outside.phase);
-  state.e = select(is_inside, state.e, outside.e);
-  state.f = select(is_inside, state.f, outside.f);
+  state.phase = select(is_inside, state.phase, of_outside.phase);
+  state.e = select(is_inside, state.e, e);
+  state.f = select(is_inside, state.f, of_outside.force);
   if constexpr (!std::is_empty_v<decltype(state.coupling)>)
-    state.coupling = select(is_inside, state.coupling, outside.coupling);
+    state.coupling = select(is_inside, state.coupling, free_coupling);
   return select(is_inside, of_inside, of_outside);
 }
 
