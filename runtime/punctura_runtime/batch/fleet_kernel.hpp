@@ -46,6 +46,7 @@ class FleetVectors final : public FleetLanes {
 
   void advance(Lanes& lanes, std::size_t start, std::size_t ticks) noexcept {
     V force, lowest = at<V>(record_.lowest_force, start), highest = at<V>(record_.highest_force, start);
+    lanes.prepare(ticks);
     for (std::size_t k = 0; k < ticks; ++k) {
       lanes.step(k);
       force = -same<V>(block_.inputs[k].told_axis).dot(lanes.force());

@@ -59,8 +59,6 @@ LaneTrials::LaneTrial* LaneTrials::put(std::size_t lane, const Scene& scene, std
   }
   LaneTrial made{period,
                  nullptr,
-                 seed,
-                 false,
                  {scene.servo.conditioning, scene.servo.low_pass, scene.servo.encoder_step, period},
                  EntryDirection<double>(period),
                  {}};
@@ -72,6 +70,8 @@ LaneTrials::LaneTrial* LaneTrials::put(std::size_t lane, const Scene& scene, std
     lanes_[lane] = std::move(made);
   b.trials = lanes_.size();
 
+  set(b.noise, lane, TickNoise(seed));
+  set(b.makes_stroke, lane, 0);
   set(b.rate, lane, rate);
   set(b.period, lane, period);
   const LowPass<double, Vector3d> low_pass(scene.servo.low_pass, period);
@@ -122,8 +122,7 @@ void LaneTrials::put_hand(std::size_t lane, const DeviceDynamics& plant, const H
   set(b.tremor_a1, lane, tremor.a1);
   set(b.tremor_a2, lane, tremor.a2);
   set(b.tremor_b, lane, tremor.b);
-  own.trembles = tremor.b != 0;
-  set(b.phase, lane, encoder_phase(own.seed));
+  set(b.phase, lane, encoder_phase(b.noise[lane]));
   set(b.place, lane, start);
 }
 
@@ -133,25 +132,31 @@ Desired LaneTrials::at(LaneTrial& own, std::size_t tick) noexcept {
 
 void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noexcept {
   LaneTrial& own = lanes_[lane];
-  const auto store = [lane](LaneVectors& to, const Vector3d& v) {
-    for (std::size_t j = 0; j < 3; ++j) to[j].of[lane] = v[j];
-  };
+  SceneBlock& b = *block_;
+  set(b.first_tick, lane, tick);
+  const auto time = [&](std::size_t k) { return static_cast<double>(k) * own.period; };
+  if (auto* strokes = std::get_if<StrokesMotion>(&own.motion)) {
+    const auto& stroke = strokes->segment(time(tick));
+    const bool made_stroke = b.makes_stroke.of[lane] != 0;
+    const bool makes_stroke = &stroke == &strokes->segment(time(tick + ticks - 1));
+    set(b.makes_stroke, lane, makes_stroke ? 1 : 0);
+    if (makes_stroke) {
+      if (made_stroke && stroke.begin == b.stroke.begin.of[lane]) return;  // no two strokes begin together
+      set(b.stroke.begin, lane, stroke.begin);
+      set(b.stroke.duration, lane, stroke.duration);
+      set(b.stroke.from, lane, stroke.from);
+      return set(b.stroke.to, lane, stroke.to);
+    }
+  }
   std::visit(
-      [&, period = own.period](auto& motion) {
+      [&](auto& motion) {
         for (std::size_t k = 0; k < ticks; ++k) {
-          const Desired now = desired(motion, period, tick + k);
-          store(block_->inputs[k].position, now.position);
-          store(block_->inputs[k].velocity, now.velocity);
+          const Desired now = desired(motion, own.period, tick + k);
+          set(b.inputs[k].position, lane, now.position);
+          set(b.inputs[k].velocity, lane, now.velocity);
         }
       },
       own.motion);
-  if (block_->has_hand)
-    for (std::size_t k = 0; k < ticks; ++k)
-      store(block_->inputs[k].noise, own.trembles ? tremor_noise(own.seed, tick + k) : Vector3d());
-  for (std::size_t each = lane + 1; each < end_of(lane); ++each)
-    for (std::size_t k = 0; k < ticks; ++k)
-      for (LaneVectors* to : {&block_->inputs[k].position, &block_->inputs[k].velocity, &block_->inputs[k].noise})
-        for (LaneNumbers& numbers : *to) numbers.of[each] = numbers.of[lane];
 }
 
 void LaneTrials::set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept {

@@ -31,8 +31,6 @@ class LaneTrials : public LaneOwner {
   struct LaneTrial {
     double period;
     std::variant<const double*, StrokesMotion, RecordedMotion, Steered> motion;  ///< a pointer: given positions, m
-    std::uint64_t seed;                                                          ///< of the noise
-    bool trembles;
     PositionConditioner<double> conditioner;
     EntryDirection<double> from_motion;
     std::vector<LaneWall> walls;
@@ -67,6 +65,10 @@ class LaneTrials : public LaneOwner {
  private:
   /// Set a number of a lane, and of those that repeat it.
   void set(LaneNumbers& numbers, std::size_t lane, double x) const noexcept;
+  template <typename T>
+  void set(std::array<T, block_lanes>& values, std::size_t lane, std::type_identity_t<T> x) const noexcept {
+    std::fill(values.data() + lane, values.data() + end_of(lane), x);
+  }
   void set(LaneVectors& vectors, std::size_t lane, const Vector3d& v) const noexcept;
   /// The pieces or the fronts of a lane's wall have changed.
   void changed(std::size_t membrane, std::size_t lane) noexcept;

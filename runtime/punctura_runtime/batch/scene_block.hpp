@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "punctura/lab/plant/motion.hpp"
+#include "punctura/lab/plant/tick_noise.hpp"
 #include "punctura/lab/plant/tip_response.hpp"
 #include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
@@ -80,6 +82,7 @@ struct SceneBlock {
   BasicTipResponse<LaneNumbers> response;
   LaneNumbers tremor_a1, tremor_a2, tremor_b;
   LaneVectors phase, place;  ///< offset of the encoders, in steps; where the tip starts, m
+  std::array<TickNoise, block_lanes> noise;
   // The servo step.
   LaneNumbers rate, period, low_pass_is_off, low_pass_gain, force_scale;
   std::uint32_t sub_steps;  ///< of a tick; lane by lane the same
@@ -90,9 +93,13 @@ struct SceneBlock {
   std::size_t width;                           ///< lanes that are computed, at most block_lanes
 
   // The inputs of scene_ticks ticks, and their forces.
+  std::array<std::uint64_t, block_lanes> first_tick;  ///< the number of the tick of inputs[0]
+  /// Of a lane whose desired motion is not in `inputs`, because it makes this one in all of these ticks: makes_stroke
+  /// is 1, not 0.
+  MinimumJerk<LaneNumbers, LaneVectors> stroke;
+  LaneNumbers makes_stroke;
   struct Inputs {
     LaneVectors position, velocity;  ///< desired by the hand; without a hand, position is the given one
-    LaneVectors noise;               ///< of the tremor
     Vector3d told_axis, axis;        ///< of the sample, and as the model uses it
   };
   std::array<Inputs, scene_ticks> inputs;

@@ -31,7 +31,8 @@ class SceneVector {
   }
 
   /// The ticks whose inputs are in the block.
-  void run(std::size_t tick, std::size_t ticks) noexcept {
+  [[gnu::flatten]] void run(std::size_t tick, std::size_t ticks) noexcept {
+    lanes_.prepare(ticks);
     for (std::size_t k = 0; k < ticks; ++k) {
       if (tick + k == next_end_) end(tick + k);
       step(k);
@@ -71,8 +72,7 @@ class SceneVector {
           return ContactTick<V>{t.depth, t.axial_force, t.band.lower, inside(t.phase), t.phase == Phase::outside};
         },
         [&](std::size_t i) { return lanes_.tick(i).direction; });
-    if (block_.keeps_force)
-      for (std::size_t j = 0; j < 3; ++j) lanes_.model_force()[j].store(block_.force[k][j].of + start_);
+    if (block_.keeps_force) store(lanes_.model_force(), block_.force[k], start_);
   }
 
   /// The next tick in which a lane ends, from this tick on.

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "punctura/lab/plant/hand.hpp"
-#include "punctura/lab/plant/tip_motion.hpp"
+#include "punctura/lab/plant/plant.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/signal/low_pass.hpp"
@@ -25,6 +24,10 @@ V at(const LaneNumbers& numbers, std::size_t lane) noexcept {
 template <typename V>
 Vector3<V> at(const LaneVectors& vectors, std::size_t lane) noexcept {
   return {at<V>(vectors[0], lane), at<V>(vectors[1], lane), at<V>(vectors[2], lane)};
+}
+template <typename V>
+void store(const Vector3<V>& v, LaneVectors& to, std::size_t lane) noexcept {
+  for (std::size_t j = 0; j < 3; ++j) v[j].store(to[j].of + lane);
 }
 template <typename V>
 Vector3<V> same(const Vector3d& v) noexcept {
@@ -116,6 +119,24 @@ class SceneLanes {
                          at<V>(block_.membranes[i].normal, start_), coupling()});
   }
 
+  /// Computes what the block does not have of the inputs of these ticks.
+  void prepare(std::size_t ticks) noexcept {
+    const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
+    const Truth given = number(block_.makes_stroke) == 0;
+    if (all(given)) return;
+    const MinimumJerk<V> stroke{number(block_.stroke.begin), number(block_.stroke.duration),
+                                at<V>(block_.stroke.from, start_), at<V>(block_.stroke.to, start_)};
+    alignas(64) double first[V::lanes];
+    for (std::size_t i = 0; i < V::lanes; ++i) first[i] = static_cast<double>(block_.first_tick[start_ + i]);
+    const V tick = V::load(first), period = number(block_.period);
+    for (std::size_t k = 0; k < ticks; ++k) {
+      SceneBlock::Inputs& to = block_.inputs[k];
+      const BasicDesired<V> now = stroke.at((tick + V(static_cast<double>(k))) * period);
+      store(select(given, at<V>(to.position, start_), now.position), to.position, start_);
+      store(select(given, at<V>(to.velocity, start_), now.velocity), to.velocity, start_);
+    }
+  }
+
   /// One tick. k: of SceneBlock::inputs.
   void step(std::size_t k) noexcept {
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
@@ -146,7 +167,7 @@ class SceneLanes {
       // As the servo step fades: + 0 makes a zero of -0.
       const Vector wanted = number(block_.force_scale) * model_force_ + Vector();
       force_ = limiter_.step(select(active_, wanted, Vector()), V(0), select(first, V(0), time - time_));
-      move(inputs, force_);
+      move(k, force_);
     }
     time_ = time;
     number_ = number_ + V(1);
@@ -226,11 +247,22 @@ class SceneLanes {
     for (std::size_t i = 0; i < states_.size(); ++i) ticks_[i] = Solver::step(params_[i], states_[i], position, axis);
   }
 
-  /// Moves the plant for a period. force: of the device, N.
-  void move(const SceneBlock::Inputs& inputs, const Vector& force) noexcept {
+  /// The noise of the tremor in tick k of the inputs.
+  Vector noise(std::size_t k) const noexcept {
+    alignas(64) double u[3][V::lanes];
+    for (std::size_t i = 0; i < V::lanes; ++i) {  // compilers turn it into vectors
+      const Vector3d now = tremor_noise(block_.noise[start_ + i], block_.first_tick[start_ + i] + k);
+      for (std::size_t j = 0; j < 3; ++j) u[j][i] = now[j];
+    }
+    return {V::load(u[0]), V::load(u[1]), V::load(u[2])};
+  }
+
+  /// Moves the plant in tick k of the inputs. force: of the device, N.
+  void move(std::size_t k, const Vector& force) noexcept {
+    const SceneBlock::Inputs& inputs = block_.inputs[k];
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
     const BasicDeviceDynamics<V> device{V(0), V(0), V(0), number(block_.max_force)};
-    const Vector tremor = tremor_.step(at<V>(inputs.noise, start_));
+    const Vector tremor = tremor_.step(noise(k));
     tip_.step(block_.response.of_each(number), device.saturate(force), at<V>(inputs.position, start_) + tremor,
               at<V>(inputs.velocity, start_));
   }

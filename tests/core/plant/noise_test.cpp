@@ -43,19 +43,19 @@ TEST_CASE("normal numbers have mean 0 and variance 1") {
 
 // The first numbers that others' SplitMix64 gives for the seed 0.
 static_assert(split_mix(0, 1) == 0xe220a8397b1dcdaf && split_mix(0, 2) == 0x6e789e6aa1b965f4);
-static_assert(tick_noise(1, 2) == tick_noise(1, 2) && !(tick_noise(1, 2) == tick_noise(2, 1)));
+static_assert(TickNoise(1).at(2) == TickNoise(1).at(2) && !(TickNoise(1).at(2) == TickNoise(2).at(1)));
 
 TEST_CASE("the noise of ticks is uniform, and ticks, axes and seeds are independent") {
   constexpr int n = 40000;
   Vector3d sum, squares;
   double next = 0, across = 0, seeds = 0;
   for (std::uint64_t k = 0; k < n; ++k) {
-    const Vector3d u = tick_noise(7, k);
+    const Vector3d u = TickNoise(7).at(k);
     sum += u;
     squares += Vector3d(u.x() * u.x(), u.y() * u.y(), u.z() * u.z());
-    next += u.x() * tick_noise(7, k + 1).x();
+    next += u.x() * TickNoise(7).at(k + 1).x();
     across += u.x() * u.y();
-    seeds += u.x() * tick_noise(8, k).x();
+    seeds += u.x() * TickNoise(8).at(k).x();
   }
   for (std::size_t j = 0; j < 3; ++j) {
     CHECK(std::abs(sum[j] / n) < 4 * std::sqrt(1. / 12 / n));

@@ -13,7 +13,7 @@ template <typename Scalar>
 class BasicTremor {
  public:
   using Vector = Vector3<Scalar>;
-  /// y(k) = a1 y(k-1) + a2 y(k-2) + b u(k), with white noise u, uniform between -0.5 and 0.5: tick_noise(). The sum of
+  /// y(k) = a1 y(k-1) + a2 y(k-2) + b u(k), with white noise u, uniform between -0.5 and 0.5: TickNoise. The sum of
   /// many of them is nearly normal.
   struct Filter {
     Scalar a1{}, a2{}, b{};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "punctura/lab/plant/hand.hpp"
@@ -12,14 +13,33 @@
 
 namespace punctura {
 
-/// Repeated strokes from `start` to `end` and back. Each is a minimum-jerk movement (Flash and Hogan 1985), with a
-/// rest at both ends. Depth and duration vary from stroke to stroke, as with a person.
+/// Repeated strokes from `start` to `end` and back. Each is a MinimumJerk, with a rest at both ends. Depth and duration
+/// vary from stroke to stroke, as with a person.
 struct Strokes {
   Vector3d start, end;     ///< m
   std::size_t count = 3;   ///< number of strokes, each to `end` and back
   double duration = 1.5;   ///< s, one way
   double rest = 0.6;       ///< s at each end, and before the first stroke
   double variation = 0.1;  ///< relative standard deviation of depth and duration; variations are clamped to 3 of them
+};
+
+/// A minimum-jerk movement (Flash and Hogan 1985) between two points, and the rest behind it.
+template <typename Scalar, typename Vector = Vector3<Scalar>>
+struct MinimumJerk {
+  Scalar begin, duration;  ///< s
+  Vector from, to;         ///< m
+
+  /// The desired motion at a time (s), not before `begin`.
+  BasicDesired<Scalar> at(const Scalar& time) const noexcept {
+    using namespace lane;
+    const Scalar u = (time - begin) / duration;
+    const auto arrived = u >= 1;
+    if (all(arrived)) return {to, {}};
+    const Scalar path = u * u * u * (10 + u * (-15 + 6 * u));
+    const Scalar rate = 30 * u * u * (1 - u) * (1 - u) / duration;
+    const Vector way = to - from;
+    return {select(arrived, to, Vector(from + path * way)), select(arrived, Vector(), Vector(rate * way))};
+  }
 };
 
 /// The motion of Strokes for a seed.
@@ -39,39 +59,31 @@ class StrokesMotion {
       }
     }
     duration_ = time;
-    home_ = strokes.start;
+    home_.from = home_.to = strokes.start;
   }
 
   double duration() const noexcept { return duration_; }  ///< s
 
   /// The desired motion at a time (s, from 0). Fast if it is near the time of the last call.
-  Desired at(double time) noexcept {
+  Desired at(double time) noexcept { return segment(time).at(time); }
+  /// The movement at a time (s, from 0), with the rest behind it. Fast if it is near the time of the last call.
+  const MinimumJerk<double>& segment(double time) noexcept {
     while (next_ > 0 && time < segments_[next_ - 1].begin) --next_;
     while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
-    if (next_ == 0) return {home_, Vector3d::Zero()};
-    const Segment& s = segments_[next_ - 1];
-    const double u = (time - s.begin) / s.duration;
-    if (u >= 1) return {s.to, Vector3d::Zero()};
-    const double path = u * u * u * (10 + u * (-15 + 6 * u));
-    const double rate = 30 * u * u * (1 - u) * (1 - u) / s.duration;
-    return {s.from + path * (s.to - s.from), rate * (s.to - s.from)};
+    return next_ == 0 ? home_ : segments_[next_ - 1];
   }
 
   static void archive(auto& self, auto& state) { state.index(self.next_, self.segments_.size() + 1); }
   void describe(auto& parameters) const {
-    parameters.numbers(duration_, home_);
-    for (const Segment& s : segments_) parameters.numbers(s.begin, s.duration, s.from, s.to);
+    parameters.numbers(duration_, home_.to);
+    for (const auto& s : segments_) parameters.numbers(s.begin, s.duration, s.from, s.to);
   }
 
  private:
-  struct Segment {
-    double begin, duration;
-    Vector3d from, to;
-  };
   double rest_, duration_ = 0;
   std::size_t next_ = 0;
-  Vector3d home_ = Vector3d::Zero();
-  std::vector<Segment> segments_;
+  MinimumJerk<double> home_{-std::numeric_limits<double>::infinity(), 1, {}, {}};  // the rest before the first stroke
+  std::vector<MinimumJerk<double>> segments_;
 };
 
 /// A motion from samples: linear between the samples, at rest before the first and after the last.

@@ -11,8 +11,8 @@
 namespace punctura {
 
 /// The numbers of a seed: the offset of the encoders, in steps, and the noise of the tremor in tick k.
-inline Vector3d encoder_phase(std::uint64_t seed) noexcept { return tick_noise(seed, 0); }
-inline Vector3d tremor_noise(std::uint64_t seed, std::uint64_t k) noexcept { return tick_noise(seed, k + 1); }
+inline Vector3d encoder_phase(const TickNoise& seed) noexcept { return seed.at(0); }
+inline Vector3d tremor_noise(const TickNoise& seed, std::uint64_t k) noexcept { return seed.at(k + 1); }
 
 /// A haptic device in a hand, at its tip: BasicTipMotion with the noise of a seed.
 template <typename Scalar>

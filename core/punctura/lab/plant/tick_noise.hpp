@@ -1,6 +1,7 @@
 // The noise of a tick as a function of a seed and the tick's number: no state, and the same on every machine.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "punctura/model/vector3.hpp"
@@ -15,13 +16,22 @@ constexpr std::uint64_t split_mix(std::uint64_t key, std::uint64_t count) noexce
   return z ^ z >> 31;
 }
 
-/// Three independent numbers, uniform between -0.5 and 0.5, with 21 bits. The same seed and number give the same ones.
-constexpr Vector3d tick_noise(std::uint64_t seed, std::uint64_t number) noexcept {
-  const std::uint64_t word = split_mix(split_mix(seed, 1), number + 1);
-  const auto of = [](std::uint64_t bits) {
-    return (static_cast<double>(static_cast<std::int64_t>(bits & 0x1fffff)) - (0x1p20 - 0.5)) * 0x1p-21;
-  };
-  return {of(word), of(word >> 21), of(word >> 42)};
-}
+/// The noise of a seed.
+class TickNoise {
+ public:
+  constexpr TickNoise(std::uint64_t seed = 0) noexcept : key_(split_mix(seed, 1)) {}
+
+  /// Three independent numbers, uniform between -0.5 and 0.5, with 21 bits. The same number gives the same ones.
+  constexpr Vector3d at(std::uint64_t number) const noexcept {
+    const std::uint64_t word = split_mix(key_, number + 1);
+    const auto of = [](std::uint64_t bits) {  // as the first digits of a number in [1, 2)
+      return std::bit_cast<double>((bits & 0xfffff80000000) | 0x3ff0000000000000) - (1.5 - 0x1p-22);
+    };
+    return {of(word << 31), of(word << 10), of(word >> 11)};
+  }
+
+ private:
+  std::uint64_t key_;
+};
 
 }  // namespace punctura
