@@ -62,18 +62,18 @@ class BatchResult:
         return f"<BatchResult of {len(self)} run{'s' * (len(self) != 1)}>"
 
     def scene(self, i: int) -> Scene:
-        """The scene of run i. Raises IndexError for a run that there is not."""
+        """The scene of run i. Raises IndexError."""
         assert self.base is not None
         return self.base.with_values(self._values("", i))
 
     def experiment(self, i: int) -> Experiment:
-        """Run i alone, to see each of its ticks. Raises ValueError for a run along positions."""
+        """Run i again, alone, so that each of its ticks can be seen. Raises ValueError for a run along positions."""
         if not isinstance(self.motion, Strokes | RecordedMotion):
             raise ValueError("a run along positions has no hand: use punctura.simulate(result.scene(i), positions)")
         return Experiment(self.scene(i), *self._operator(self.motion, i), int(self.seeds[i]), list(self.axis))
 
     def device(self, i: int, ticks: int) -> SimulatedDevice:
-        """The simulated device of run i, as fast as possible: a ServoLoop on it makes the ticks of `experiment`.
+        """A simulated device that repeats run i without waiting: a ServoLoop on it has the same ticks as `experiment`.
 
         ticks: number of ticks after which it ends. Raises ValueError for a run along positions.
         """

@@ -81,7 +81,7 @@ class Comparison:
     names: list[str]  # of the membranes
 
     def difference(self, row: int) -> dict[str, float | None]:
-        """What a run's numbers (NUMBERS) have more than the first run's; None without a value."""
+        """The numbers (NUMBERS) of a run minus those of the first run; None where one of the two has no value."""
         first, other = self.statistics[0], self.statistics[row]
         pairs = {name: (getattr(first, name), getattr(other, name)) for name in NUMBERS}
         return {name: None if a is None or b is None else b - a for name, (a, b) in pairs.items()}

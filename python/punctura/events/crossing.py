@@ -8,7 +8,7 @@ from punctura import Scene, _core
 
 
 class Crossing(NamedTuple):
-    """Depths along the needle, m."""
+    """The steps of a needle through a membrane, as depths of the tip behind the surface along the needle, m."""
 
     cos_beta: float  # n.b, with b the needle's direction at entry
     far_face: float  # the point of the tip leaves the far face: U

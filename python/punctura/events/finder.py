@@ -29,7 +29,7 @@ class EventFinder:
         return repr(self._finder)
 
     def change(self, scene: Scene) -> None:
-        """Sets the new scene. It applies from the next tick whose commands say that it took a scene."""
+        """Gives the scene that the run changes to: it applies from the next tick whose commands mark a new scene."""
         self._finder.change(scene)
 
     def add(self, columns: Ticks | dict[str, NDArray[Any]]) -> list[Event]:

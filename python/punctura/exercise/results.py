@@ -63,7 +63,7 @@ class ResultStore:
         return kept
 
     def load(self, name: str) -> Result:
-        """Raises ResultsError."""
+        """The saved result of this name. Raises ResultsError."""
         return self._read(self._path(name), name)
 
     def all(
@@ -90,7 +90,7 @@ class ResultStore:
         return sorted({result.person for result in self.all()} - {""}, key=str.casefold)
 
     def delete(self, name: str) -> None:
-        """Raises ResultsError."""
+        """Deletes the saved result of this name. Raises ResultsError."""
         try:
             self._path(name).unlink()
         except FileNotFoundError:

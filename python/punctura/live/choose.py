@@ -76,16 +76,19 @@ def gate_for(device: Device) -> GateLimits:
 
 
 def fit_direction(scene: Scene, device: Device) -> tuple[Scene, str]:
-    """(scene, note): direction from motion if the device reports no orientation; else unchanged, without a note."""
+    """The scene for this device, and a note, empty if the scene is unchanged.
+
+    If the device reports no orientation, the needle points where its tip moves.
+    """
     if scene.direction == "motion" or device.info.has_orientation:
         return scene, ""
     return scene.replace(direction="motion"), "the device reports no orientation: the needle points where the tip moves"
 
 
 def fit_conditioning(scene: Scene, device: Device) -> tuple[Scene, str]:
-    """The scene with positions conditioned for the device's own encoders (docs/conditioning.md), and a note about that.
+    """The scene with positions conditioned for this device's encoders (docs/conditioning.md), and a note.
 
-    Unchanged if the device does not report its encoder step.
+    The scene is unchanged, and the note empty, if the device does not report its encoder step.
     """
     step = device.info.encoder_step
     if not math.isfinite(step):

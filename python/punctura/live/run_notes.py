@@ -9,12 +9,12 @@ from punctura.device_words import room_note
 
 
 def run_notes(loop: ServoLoop) -> list[str]:
-    """The notes on a run, told before it and in its summary."""
+    """What the user of a run should know, a sentence each: shown before the run, and kept in its summary."""
     return [note for note in (rival_note(loop), damping_note(loop), room_note(loop)) if note]
 
 
 def rival_note(loop: ServoLoop) -> str:
-    """Whose force it is; empty for the scene's own law."""
+    """A sentence that names the rivals whose force the run has; empty for the scene's own law."""
     if not loop.rivals:
         return ""
     names = " and ".join(dict.fromkeys(rival.name for rival in loop.rivals))
@@ -28,9 +28,9 @@ def rival_note(loop: ServoLoop) -> str:
 
 
 def damping_note(loop: ServoLoop) -> str:
-    """The friction that the device needs, because no device states its own.
+    """A sentence with the viscous friction, N s/m, below which the device can buzz: no device states its own.
 
-    Empty for a device that nobody holds, and for rivals: the number is that of the coupling, which they do not have.
+    Empty for a device that nobody holds, and for rivals: the number follows from the coupling, which they lack.
     """
     if loop.rivals or math.isinf(loop.device.longest_silence[1]):
         return ""

@@ -20,7 +20,7 @@ class SecondDeviceError(DeviceError):
 
 
 class SecondDevice(NamedTuple):
-    """What a user asks for. name: from `punctura devices`. direction: in which the thumb pushes, in device axes."""
+    """The choice of a device for the thumb. name: of `punctura devices`. direction: of a push, in device axes."""
 
     name: str
     direction: tuple[float, float, float] = DOWN
@@ -50,7 +50,7 @@ class SecondDevice(NamedTuple):
         return opened
 
     def again(self, before: Device) -> Device:
-        """The device for the next run: a real one stays open, a simulated one begins anew with motors as warm."""
+        """The device for the next run: a real one as it is, a simulated one made again with motors as warm."""
         if not isinstance(before, SimulatedDevice):
             return before
         fresh = SimulatedDevice(self._strokes(), rate=before.info.rate)
@@ -73,7 +73,7 @@ class SecondDevice(NamedTuple):
 
 
 def direction_of(text: str) -> tuple[float, float, float]:
-    """Three numbers with commas between them. Raises ValueError."""
+    """The direction of a text such as "0,-1,0". Raises ValueError."""
     try:
         parts: Sequence[float] = [float(part) for part in text.split(",")]
     except ValueError:

@@ -27,7 +27,7 @@ def strongest(force: NDArray[np.float64], ceiling: NDArray[np.float64]) -> float
 
 @dataclass
 class RunSummary:
-    """The run in SI units. `--json` prints all fields."""
+    """The result of a live run, SI. `punctura run --headless --json` prints all fields."""
 
     scene: str
     device: str
@@ -66,7 +66,7 @@ class RunSummary:
         return cls(scene.name, device, rate, names, deepest_m=[0.0] * len(names))
 
     def add(self, ticks: Ticks) -> None:
-        """Takes a batch from a Listener."""
+        """Adds the ticks of a batch, as Listener.read() returns it."""
         tick = ticks.tick
         n = len(tick)
         if n == 0:
@@ -97,7 +97,7 @@ class RunSummary:
             self.fault = describe(Fault(fault))
 
     def finish(self, loop: ServoLoop, thumb: ThumbLoop | None = None) -> None:
-        """Takes the loop's report, after it has stopped."""
+        """Adds the times and the lost ticks of a loop that has stopped."""
         report = loop.report()
         self.lost = max(self.lost, report["ticks"] - self.ticks)  # including ticks after the last read
         self.late = report["late"]

@@ -61,7 +61,7 @@ class TraceComparison:
     rows: tuple[Row, ...]
 
     def row(self, name: str) -> Row:
-        """Raises KeyError."""
+        """The row of the model with this name. Raises KeyError."""
         return {row.name: row for row in self.rows}[name]
 
 
@@ -74,7 +74,7 @@ def compare_trace(
     progress: Report | None = None,
     identified: Identification | None = None,
 ) -> TraceComparison:
-    """Fits rivals to a trace, and K06 if the needle is told, and compares them. names: default: all.
+    """Fits rivals to a trace, and K06 if the needle is given, and compares them. names: of the rivals; default: all.
 
     identified: the identification of this trace with this needle, if there is one; K06 is then not fitted again.
 

@@ -13,8 +13,11 @@ from punctura.scene.schema import ALTERNATIVES, KEYS, MODELS, SceneFile, in_file
 
 
 def scene_json_schema() -> JsonSchemaValue:
-    """JSON Schema (2020-12) of a scene file. `x-unit` is a number's unit, `x-symbol` its letter in K06, and
-    `x-diameters-mm` the diameters of the gauges, in the order of `enum`, `x-optional` a table that a scene may lack."""
+    """JSON Schema (2020-12) of a scene file.
+
+    Keys of Punctura: `x-unit` is the unit of a number, `x-symbol` its letter in K06, `x-diameters-mm` the diameters of
+    the gauges in `enum`, in the same order. `x-optional` marks a table that a scene may lack.
+    """
     schema = SceneFile.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     for name, model in MODELS.items():

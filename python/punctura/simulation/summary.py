@@ -16,7 +16,7 @@ class MembraneSummary:
 
 @dataclass
 class SimulationSummary:
-    """Input and output of a simulation, and notes for the user."""
+    """The result of a simulation: files, times, the largest forces, and notes for the user."""
 
     scene: str
     motion: str

@@ -26,7 +26,7 @@ CHECKING = 0.05  # of the time of a study, measured with trials of one second
 
 @dataclass(frozen=True)
 class StudySummary:
-    """What a run of a study has done."""
+    """The files of a study, and how many trials it has, were kept from before, or were ended by a fault."""
 
     plan: str
     table: str  # Parquet file, one row for each trial

@@ -41,7 +41,7 @@ def read_trace(
     speeds: Speeds = (),
     depth_file: str | os.PathLike[str] | None = None,
 ) -> Trace:
-    """Reads a trace file of a kind of docs/identify.md. The findings of the trace name what is unusual.
+    """Reads a trace file; docs/identify.md lists the kinds. The findings of the trace name what is unusual.
 
     columns: {"depth": name or number from 1, "force": ..., "time": ...}; without it, columns are found by name
     (`depth_mm`, `force_N`, `time_s`). units: {"depth": "mm", ...}; a unit in a column's name needs none.
