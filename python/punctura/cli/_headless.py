@@ -25,7 +25,7 @@ from punctura.live import (
     ANY_PROCESSOR,
     MODEL_FORCE,
     Ended,
-    Limits,
+    RunLimits,
     RunSummary,
     SecondDevice,
     ThumbLoop,
@@ -54,7 +54,7 @@ class Wishes(NamedTuple):
     placement: Placement | None
     scene_filter: bool
     processor: int = ANY_PROCESSOR
-    limits: Limits = Limits()
+    limits: RunLimits = RunLimits()
     second: SecondDevice | None = None
     rivals: Sequence[Rival] = ()  # in place of the scene's law
 

@@ -20,7 +20,7 @@ from punctura.errors import ConfigurationError
 from punctura.live import (
     ANY_PROCESSOR,
     Ended,
-    Limits,
+    RunLimits,
     SecondDevice,
     SecondDeviceError,
     direction_of,
@@ -156,7 +156,7 @@ def command(
             "recorded positions are already in the scene's frame; leave it out with a replay", param_hint="--placement"
         )
     stands = load_placement(placement) if placement else None
-    allowed = load_limits(limits) if limits else Limits()
+    allowed = load_limits(limits) if limits else RunLimits()
     if max_force is not None:
         try:
             allowed = allowed.at_most(max_force)

@@ -17,7 +17,7 @@ from punctura.exercise.coach.coach import Coach
 from punctura.exercise.course import asked_push, course_of, felt_membranes, judges_plunger
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.goals import GOALS
-from punctura.exercise.judge import Achievement, Limit
+from punctura.exercise.judge import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
 from punctura.exercise.moment import Moment, first_of, moment
 from punctura.exercise.motion import Stays
@@ -45,7 +45,7 @@ class Attempt:
         self._judges = [goal.judge(course) for goal in exercise.goals]
         kinds = list(GOALS)
         by_kind = sorted(zip(exercise.goals, self._judges, strict=True), key=lambda one: kinds.index(one[0].kind))
-        self._limits = [judge for judge in self._judges if isinstance(judge, Limit)]
+        self._limits = [judge for judge in self._judges if isinstance(judge, LimitJudge)]
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
         self._geometry = Geometry(scene)
         self._stays = Stays(self._space)
@@ -173,7 +173,7 @@ class Attempt:
         return "not everything was measured" if self._unmeasured else ""
 
     @property
-    def _unmeasured(self) -> list[Limit]:
+    def _unmeasured(self) -> list[LimitJudge]:
         """The limits that were not measured, once everything was achieved."""
         return [one for one in self._limits if one.state(self._decision, True) == "not measured"]
 
@@ -181,7 +181,7 @@ class Attempt:
         complete = self._passed or (ended and not self.over and self._achieved)
         states = []
         for judge in self._judges:
-            if isinstance(judge, Limit):
+            if isinstance(judge, LimitJudge):
                 states.append(judge.state(self._decision, complete))
             else:
                 states.append("met" if self._passed else judge.state(self._decision))
@@ -270,7 +270,7 @@ class Attempt:
         )
 
 
-def _windows(limits: Sequence[Limit]) -> dict[int, float]:
+def _windows(limits: Sequence[LimitJudge]) -> dict[int, float]:
     """By membrane: the time after a pop in which the overshoot is measured, s; the longest that a limit asks for."""
     windows: dict[int, float] = {}
     for index, seconds in filter(None, (limit.overshoot for limit in limits)):
@@ -278,6 +278,6 @@ def _windows(limits: Sequence[Limit]) -> dict[int, float]:
     return windows
 
 
-def _after_yield(limits: Sequence[Limit]) -> float:
+def _after_yield(limits: Sequence[LimitJudge]) -> float:
     """The time after the plunger gives way in which the injected volume is measured, s."""
     return max((limit.after_yield for limit in limits if limit.after_yield is not None), default=1.0)

@@ -48,7 +48,7 @@ class Judge:
         yield from ()
 
 
-class Limit(Judge):
+class LimitJudge(Judge):
     """A goal that holds until it is missed. It is met only if it was measured to the end."""
 
     time_limit: float | None = None  # s from the first contact
@@ -117,7 +117,7 @@ class Limit(Judge):
         self._seen_at = float(max(before[-1], times[-1]))
 
 
-class WindowLimit(Limit):
+class WindowJudge(LimitJudge):
     """A limit that is measured in a window of time. It is met at the end of the first window."""
 
     met: Moment | None = None  # the end of the first window

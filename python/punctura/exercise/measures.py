@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping
 import numpy as np
 
 from punctura import Scene
-from punctura._core import Limit as ForceLimit
+from punctura._core import Limit
 from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.motion import Path, PathSoFar
@@ -81,7 +81,7 @@ class Measures:
         self._off += int(off.sum())
         self._late += int((ticks.age > LATE_S).sum())
         for name in CUTS:
-            self._cut[name] += int((ticks.limit == getattr(ForceLimit, name).value).sum())
+            self._cut[name] += int((ticks.limit == getattr(Limit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
         self.peak_felt_force = float(np.fmax(self.peak_felt_force, np.fmax.reduce(ticks.felt_size)))
         self._force_scale = float(ticks.force_scale[-1])

@@ -24,7 +24,7 @@ from punctura._core import (
 from punctura.device_words import room_note
 from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
 from punctura.live.force_words import MODEL_FORCE, felt_force
-from punctura.live.limits import Limits, load_limits
+from punctura.live.limits import RunLimits, load_limits
 from punctura.live.motion import stroke_ends, strokes_through
 from punctura.live.placement import load_placement, placement_from_pose, placement_text
 from punctura.live.plug_ins import enumerate_devices
@@ -51,13 +51,13 @@ __all__ = [
     "ForceLimits",
     "GateLimits",
     "Limit",
-    "Limits",
     "LiveEstimate",
     "LoopReport",
     "Pacer",
     "Placement",
     "Quantiles",
     "ReplayDevice",
+    "RunLimits",
     "RunSummary",
     "SecondDevice",
     "SecondDeviceError",

@@ -56,8 +56,8 @@ class LimitsFile(Table):
         return {split_key(key)[0]: in_si(key, value) for key in keys if (value := getattr(self, key)) is not None}
 
 
-class Limits(NamedTuple):
-    """force: limits of the force. gate, chosen: the fields of GateLimits and ForceLimits that the user chose, SI."""
+class RunLimits(NamedTuple):
+    """The limits of a run. gate, chosen: the fields of GateLimits and ForceLimits that the user chose, SI."""
 
     force: ForceLimits = ForceLimits()
     gate: Mapping[str, float | int] = MappingProxyType({})
@@ -85,7 +85,7 @@ class Limits(NamedTuple):
             raise ConfigurationError(problems, self.source)
         return made
 
-    def at_most(self, max_force: float) -> Limits:
+    def at_most(self, max_force: float) -> RunLimits:
         """The same limits with another max_force, N. Raises ConfigurationError."""
         chosen = {**self.chosen, "max_force": max_force}
         return self._replace(force=self.force.replace(max_force=max_force), chosen=MappingProxyType(chosen))
@@ -115,7 +115,7 @@ class Limits(NamedTuple):
         return notes
 
 
-def load_limits(path: str | os.PathLike[str]) -> Limits:
+def load_limits(path: str | os.PathLike[str]) -> RunLimits:
     """Reads a limits file. Raises ConfigurationError with all of its problems."""
     file = read_table(
         path,
@@ -123,4 +123,4 @@ def load_limits(path: str | os.PathLike[str]) -> Limits:
         LimitsFile,
         (lambda file: ForceLimits(**file.force), lambda file: GateLimits().replace(**file.gate)),
     )
-    return Limits(ForceLimits(**file.force), file.gate, file.force, os.fspath(path))
+    return RunLimits(ForceLimits(**file.force), file.gate, file.force, os.fspath(path))

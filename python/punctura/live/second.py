@@ -9,7 +9,7 @@ from typing import NamedTuple
 from punctura import Scene
 from punctura._core import Device, DeviceError, ReplayDevice, SimulatedDevice, Strokes, ThumbLoop
 from punctura.live.choose import ANY_PROCESSOR, open_for
-from punctura.live.limits import Limits
+from punctura.live.limits import RunLimits
 
 DOWN = (0.0, -1.0, 0.0)
 STROKE_M, STROKE_S, REST_S = 6e-3, 3.0, 1.0  # of the simulated thumb; illustrative
@@ -57,7 +57,7 @@ class SecondDevice(NamedTuple):
         fresh.go_on_from(before)
         return fresh
 
-    def loop(self, device: Device, limits: Limits) -> ThumbLoop:
+    def loop(self, device: Device, limits: RunLimits) -> ThumbLoop:
         """The thumb's loop, for ServoLoop(thumb=...). Raises ConfigurationError.
 
         It has the force and input limits of the needle's device. A dead-man button is that of the needle's device

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from punctura import Scene
 from punctura._core import Device, Fault, Placement, ServoLoop, SimulatedDevice, Target, ThumbLoop
-from punctura.live import ANY_PROCESSOR, Limits, SecondDevice, fit_conditioning, fit_direction, open_for, run_notes
+from punctura.live import ANY_PROCESSOR, RunLimits, SecondDevice, fit_conditioning, fit_direction, open_for, run_notes
 from punctura.record import Recorder
 from punctura.results import JsonObject
 from punctura.studio.hand import Pose, resting_pose
@@ -25,7 +25,7 @@ class Settings:
     device: str = ""
     placement: Placement = field(default_factory=Placement)
     scene_filter: bool = False  # filter positions as the scene says, not as the device needs
-    limits: Limits = field(default_factory=Limits)
+    limits: RunLimits = field(default_factory=RunLimits)
     processor: int = ANY_PROCESSOR  # to tick on
     second: SecondDevice | None = None  # under the thumb
 

@@ -8,7 +8,7 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import DeviceInfo, FedDevice, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
-from punctura.live import Limits, load_limits, run_live
+from punctura.live import RunLimits, load_limits, run_live
 from punctura.live.summary import strongest
 from punctura.simulation import Strokes, Target
 
@@ -57,7 +57,7 @@ def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
     assert limits.force == ForceLimits()
     assert limits.gate_on(simulated) == GateLimits(max_speed=3.2, stale=1.0, deadline=1.0)
     assert limits.gate_on(with_buttons(0)) == GateLimits(max_speed=3.2)
-    assert Limits().gate_on(with_buttons(0)) == GateLimits()
+    assert RunLimits().gate_on(with_buttons(0)) == GateLimits()
 
 
 def test_all_that_is_wrong_is_told_at_once_by_the_files_own_names(tmp_path):
@@ -142,14 +142,14 @@ def test_a_force_above_the_devices_rating_is_told_with_both_numbers(tmp_path):
         "max_force_N = 5 is above the rating of PHANTOM Omni, simulated: 3.3 N is the limit",
         "continuous_force_N = 2.5 is above the rating of PHANTOM Omni, simulated: 0.88 N is the limit",
     ]
-    assert [note.split()[2] for note in Limits().at_most(3.5).notes(loop)] == ["3.5"]
+    assert [note.split()[2] for note in RunLimits().at_most(3.5).notes(loop)] == ["3.5"]
 
 
 def test_a_force_that_was_not_chosen_or_is_within_the_rating_is_not_told():
     weak = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
     loop = ServoLoop(weak, SCENE)
     assert loop.limits.max_force == 1.0
-    assert Limits().notes(loop) == Limits().at_most(1.0).notes(loop) == []
+    assert RunLimits().notes(loop) == RunLimits().at_most(1.0).notes(loop) == []
 
 
 def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path):

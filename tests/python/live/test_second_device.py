@@ -17,7 +17,7 @@ from punctura.compare.bundle import curves_table, ticks_table
 from punctura.live import (
     DeviceInfo,
     FedDevice,
-    Limits,
+    RunLimits,
     SecondDevice,
     SecondDeviceError,
     SimulatedDevice,
@@ -209,7 +209,7 @@ def test_a_direction_that_is_none_is_refused(text):
 
 
 def test_the_limits_of_the_needle_hold_for_the_thumb_but_its_dead_man_button_does_not():
-    limits = Limits(ForceLimits(max_force=0.4), {"dead_man": 1})
+    limits = RunLimits(ForceLimits(max_force=0.4), {"dead_man": 1})
     device = FedDevice(500, info=DeviceInfo(model="a thumb", max_force=3.0))  # it has no button
     assert SecondDevice("mine").loop(device, limits).limits.max_force == 0.4
 
@@ -232,7 +232,7 @@ def test_the_studio_opens_the_second_device_for_each_run():
 def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     thumb, told = Library("the thumb's", (0.0, 0.0, 0.0)), []
     monkeypatch.setattr("punctura.live.second.open_for", lambda *_: thumb.device)
-    loaded, patient = from_name("epidural"), Limits(ForceLimits(), {"stale": 30.0, "deadline": 30.0})
+    loaded, patient = from_name("epidural"), RunLimits(ForceLimits(), {"stale": 30.0, "deadline": 30.0})
     bench = Bench(Settings("simulated", limits=patient, second=SecondDevice("mine")), loaded.scene)
     run = Run(0, bench, loaded)
     pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, send=told.append))

@@ -8,7 +8,7 @@ from punctura import ConfigurationError, load_scene
 from punctura.exercise import load_exercise
 from punctura.files.toml_bounds import MOST_BYTES
 from punctura.live import load_limits, load_placement
-from punctura.live.limits import Limits
+from punctura.live.limits import RunLimits
 
 READERS = {"limits": load_limits, "placement": load_placement, "exercise": load_exercise, "scene": load_scene}
 SOUND = {"limits": "max_force_N = 0.5", "placement": "scale = 0.5"}
@@ -68,6 +68,6 @@ def test_a_byte_order_mark_is_skipped(what, tmp_path):
     plain.write_text(SOUND[what])
     marked.write_bytes(b"\xef\xbb\xbf" + SOUND[what].encode())
     sound, skipped = READERS[what](plain), READERS[what](marked)
-    if isinstance(sound, Limits):
+    if isinstance(sound, RunLimits):
         sound, skipped = sound._replace(source=""), skipped._replace(source="")
-    assert skipped == sound != (Limits() if what == "limits" else type(sound)())
+    assert skipped == sound != (RunLimits() if what == "limits" else type(sound)())

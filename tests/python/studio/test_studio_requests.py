@@ -5,7 +5,7 @@ import punctura as pn
 import pytest
 from punctura._core import ServoState
 from punctura.exercise import exercise_names, load_exercise
-from punctura.live import Limits
+from punctura.live import RunLimits
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
 
@@ -33,7 +33,7 @@ def test_a_newcomer_is_told_everything_there_is(page):
 
 
 def test_the_limits_that_were_chosen_are_told_and_hold(tmp_path):
-    server = serve(tmp_path, settings=Settings(limits=Limits().at_most(0.4)))
+    server = serve(tmp_path, settings=Settings(limits=RunLimits().at_most(0.4)))
     try:
         with StudioClient(server.address.url, keep_frames=True) as page:
             page.wait(lambda: page.of("hello"))

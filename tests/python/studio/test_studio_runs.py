@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from punctura.exercise import load_exercise
-from punctura.live import Limits, SecondDevice
+from punctura.live import RunLimits, SecondDevice
 from punctura.studio.client import StudioClient
 from punctura.studio.run import Settings
 
@@ -43,7 +43,7 @@ def test_a_target_of_the_run_before_moves_nothing_in_the_next(served, page, begi
 
 
 def test_a_page_is_told_of_a_force_above_the_devices_rating(tmp_path):
-    server = serve(tmp_path, settings=Settings(limits=Limits().at_most(5.0)))
+    server = serve(tmp_path, settings=Settings(limits=RunLimits().at_most(5.0)))
     try:
         with StudioClient(server.address.url) as page:
             [status] = page.wait(lambda: page.of("status")[:1])

@@ -6,7 +6,7 @@ import numpy as np
 import punctura as pn
 from punctura.exercise import Attempt, Result, ResultStore, load_exercise
 from punctura.files.toml import Tables
-from punctura.live import BackendState, Limits, enumerate_devices, load_limits, load_placement
+from punctura.live import BackendState, RunLimits, enumerate_devices, load_limits, load_placement
 from punctura.record import open_recording
 from punctura.simulation import SimulationSummary
 from punctura.studio.activity import Activity, ExerciseActivity, Outcome
@@ -26,7 +26,7 @@ peak = float(ticks.axial_force[:, 0].min()) + float(ticks[10:20]["lower"].max())
 
 states: list[BackendState] = enumerate_devices()
 names: list[str] = [device for state in states if state["state"] == "available" for device in state["devices"]]
-limits: Limits = load_limits("limits.toml").at_most(0.5)
+limits: RunLimits = load_limits("limits.toml").at_most(0.5)
 scale: float = load_placement(Path("placement.toml")).scale
 
 exercise = load_exercise("venipuncture")

@@ -12,7 +12,7 @@ from punctura.exercise.coach.seen import Seen
 from punctura.exercise.coach.thresholds import MOST_REMARKS
 from punctura.exercise.coach.trace import Trace
 from punctura.exercise.course import asked_angle
-from punctura.exercise.judge import Achievement, Limit
+from punctura.exercise.judge import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
 from punctura.exercise.moment import Moment
 from punctura.exercise.result import Coaching, Remark
@@ -25,11 +25,11 @@ class Coach:
     """`add` takes the ticks up to the decision; `words` may be called at any time."""
 
     def __init__(
-        self, file: ExerciseFile, scene: Scene, space: TargetSpace, judges: Sequence[Limit | Achievement]
+        self, file: ExerciseFile, scene: Scene, space: TargetSpace, judges: Sequence[LimitJudge | Achievement]
     ) -> None:
         """judges: those of the goals, in the order in which the coach speaks of them."""
         self._file, self._space = file, space
-        self._limits = [judge for judge in judges if isinstance(judge, Limit)]
+        self._limits = [judge for judge in judges if isinstance(judge, LimitJudge)]
         self._judges = judges
         self._first = scene.membranes[0].name
         self._trace = Trace(space, scene.servo.rate)
@@ -61,7 +61,7 @@ class Coach:
         for speak in good.ORDER:
             yield from speak(seen)
 
-    def _change(self, seen: Seen, missed: list[Limit]) -> Iterator[Remark]:
+    def _change(self, seen: Seen, missed: list[LimitJudge]) -> Iterator[Remark]:
         for judge in self._judges:
             if judge in missed or isinstance(judge, Achievement):
                 yield from judge.corrections(seen)

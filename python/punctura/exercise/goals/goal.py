@@ -8,7 +8,7 @@ from typing import Any, ClassVar, NamedTuple, TypeAlias
 from punctura import Scene
 from punctura.errors import Problem
 from punctura.exercise.fields import Space, Start, Word
-from punctura.exercise.judge import Achievement, Limit
+from punctura.exercise.judge import Achievement, LimitJudge
 from punctura.exercise.space import TargetSpace
 from punctura.files.tables import Table
 
@@ -31,7 +31,7 @@ class Goal(Table):
 
     needs_syringe: ClassVar[bool] = False
 
-    def judge(self, course: Course) -> Limit | Achievement:
+    def judge(self, course: Course) -> LimitJudge | Achievement:
         """The judge of an attempt. The scene must have the goal's membrane."""
         raise NotImplementedError
 

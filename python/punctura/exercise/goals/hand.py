@@ -12,7 +12,7 @@ from punctura.events import Event
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
 from punctura.exercise.goals.goal import Course, Goal
-from punctura.exercise.judge import Limit, SoFar
+from punctura.exercise.judge import LimitJudge, SoFar
 from punctura.exercise.moment import Moment, by, first_of
 from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.quantities import speed
@@ -41,7 +41,7 @@ class EntryAngle(Goal):
         return self.angle_deg
 
 
-class AngleJudge(Limit):
+class AngleJudge(LimitJudge):
     """Judges each entry into the first membrane."""
 
     def __init__(self, goal: EntryAngle, asked_deg: float, name: str) -> None:
@@ -81,7 +81,7 @@ class MostSpeed(Goal):
         return SpeedJudge(self)
 
 
-class SpeedJudge(Limit):
+class SpeedJudge(LimitJudge):
     """Judges the mean speed of the last 0.1 s in the tissue, along the needle."""
 
     def __init__(self, goal: MostSpeed) -> None:
@@ -113,7 +113,7 @@ class NoPause(Goal):
         return PauseJudge(self, course.target)
 
 
-class PauseJudge(Limit):
+class PauseJudge(LimitJudge):
     """Judges the way from first contact to arrival. A late page is no pause, and for more than 1 s no measurement."""
 
     def __init__(self, goal: NoPause, space: TargetSpace) -> None:
@@ -154,7 +154,7 @@ class PeakForce(Goal):
         return ForceJudge(self)
 
 
-class ForceJudge(Limit):
+class ForceJudge(LimitJudge):
     def __init__(self, goal: PeakForce) -> None:
         super().__init__(goal.text or f"Push with no more than {goal.at_most_N:g} N")
         self.at_most = goal.at_most_N
@@ -190,7 +190,7 @@ class TimeLimit(Goal):
         return TimeJudge(self)
 
 
-class TimeJudge(Limit):
+class TimeJudge(LimitJudge):
     """Uses the ticks' own times, so lost ticks do not stop the time."""
 
     def __init__(self, goal: TimeLimit) -> None:

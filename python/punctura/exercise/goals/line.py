@@ -15,7 +15,7 @@ from punctura.events import Event
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Distance, Vector, no_direction
 from punctura.exercise.goals.goal import Course, Given, Goal
-from punctura.exercise.judge import Limit, SoFar
+from punctura.exercise.judge import LimitJudge, SoFar
 from punctura.exercise.moment import Moment, by, first_of
 from punctura.exercise.quantities import mm, tenths
 from punctura.exercise.result import Remark
@@ -59,7 +59,7 @@ class OnLine(Goal):
             yield Problem("along", along, "must not be parallel to the first membrane's normal")
 
 
-class LineJudge(Limit):
+class LineJudge(LimitJudge):
     """Uses the position of the tip in the ticks in which the point is in the space."""
 
     def __init__(self, goal: OnLine, scene: Scene) -> None:

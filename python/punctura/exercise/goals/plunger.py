@@ -14,7 +14,7 @@ from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Push, Seconds, Volume, asked
 from punctura.exercise.goals.goal import Course, Goal
-from punctura.exercise.judge import Achievement, SoFar, WindowLimit
+from punctura.exercise.judge import Achievement, SoFar, WindowJudge
 from punctura.exercise.moment import Moment, first_of
 from punctura.exercise.quantities import millilitres, tenths
 from punctura.exercise.result import Remark
@@ -119,7 +119,7 @@ class StopPlunger(Goal):
         return PlungerJudge(self)
 
 
-class PlungerJudge(WindowLimit):
+class PlungerJudge(WindowJudge):
     """Uses the volume that has left the syringe. It is open from the tick at which the plunger gives way until the
     window ends. A plunger that never gave way was not measured."""
 

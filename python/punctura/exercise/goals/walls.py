@@ -16,7 +16,7 @@ from punctura.exercise.coach import thresholds as t
 from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word, asked
 from punctura.exercise.goals.goal import Course, Given, Goal
-from punctura.exercise.judge import Limit, SoFar, WindowLimit
+from punctura.exercise.judge import LimitJudge, SoFar, WindowJudge
 from punctura.exercise.moment import Moment, first_of
 from punctura.exercise.quantities import mm, speed, tenths, times
 from punctura.exercise.result import Remark
@@ -35,7 +35,7 @@ class NeverPass(Goal):
         return NeverPassJudge(self, course.scene)
 
 
-class NeverPassJudge(Limit):
+class NeverPassJudge(LimitJudge):
     def __init__(self, goal: NeverPass, scene: Scene) -> None:
         super().__init__(goal.text or f"Do not go through the {goal.membrane}")
         self.membrane, self._whole = goal.membrane, goal.whole_tip
@@ -84,7 +84,7 @@ class StopAfterPop(Goal):
         return self.membrane
 
 
-class StopJudge(WindowLimit):
+class StopJudge(WindowJudge):
     """Uses the tip's depth in the membrane, so a wall that springs back along the needle counts too.
 
     The measurement is open while the membrane holds a tip without a pop since its entry, and then until the window
@@ -208,7 +208,7 @@ class MostDepth(Goal):
             yield Problem("at_most_mm", MISSING, "is needed: the space has no deepest_mm")
 
 
-class DepthJudge(Limit):
+class DepthJudge(LimitJudge):
     """Judges the depth of the point behind the membrane before the space, along its normal."""
 
     def __init__(self, goal: MostDepth, space: TargetSpace, behind: str) -> None:
@@ -235,7 +235,7 @@ class Entries(Goal):
         return EntriesJudge(self, course.scene)
 
 
-class EntriesJudge(Limit):
+class EntriesJudge(LimitJudge):
     def __init__(self, goal: Entries, scene: Scene) -> None:
         often = "once" if goal.at_most == 1 else f"{goal.at_most} times"
         super().__init__(goal.text or f"Enter the {scene.membranes[0].name} no more than {often}")
