@@ -142,10 +142,10 @@ step_cpp() {
 }
 check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh build/dev; }
 
-# Compiles all sources and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
+# Compiles the tests, the runtime and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
 # random cases, which reach the same code, because sanitizers are slow.
 step_asan() {
-  compile asan all punctura_headers || return
+  compile asan core_tests runtime_tests punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan
 }
