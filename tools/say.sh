@@ -22,16 +22,17 @@ The whole log: $log"
 
 # The remedy for the failure in a log.
 advice() {
-  if grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif' "$1"; then
+  if grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif|invalid peer certificate' "$1"; then
     echo "A certificate was not trusted. Install ca-certificates (or your organisation's certificate)," \
       "or set PIP_CERT, then start again."
   elif grep -qiE -e 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve' \
     -e 'Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
     echo "The network is not reachable (see above). Check the connection," \
       "or the proxy and the package index in your settings, then start again."
-  elif grep -qiE 'No matching distribution found' "$1"; then
+  elif grep -qiE 'No matching distribution found|No solution found' "$1"; then
     echo "The package index does not answer, or has no package for this Python ($python_version)." \
-      "Check the network and pip's settings (pip config list), then start again."
+      "Check the network and pip's settings (pip config list), then start again. If you changed pyproject.toml, run" \
+      "tools/lock.sh first."
   elif grep -qiE 'No space left on device' "$1"; then
     echo "The disk is full. Punctura needs about 2 GB; free some space, then start again."
   elif grep -qiE 'Permission denied' "$1"; then

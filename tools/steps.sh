@@ -142,8 +142,8 @@ step_cpp() {
 }
 check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh build/dev; }
 
-# Compiles the tests, the runtime and each header alone with Clang, for its warnings. Runs the tests under sanitizers with fewer
-# random cases, which reach the same code, because sanitizers are slow.
+# Compiles the tests, the runtime and each header alone with Clang, for its warnings. Runs the tests under sanitizers
+# with fewer random cases, which reach the same code, because sanitizers are slow.
 step_asan() {
   compile asan core_tests runtime_tests punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"

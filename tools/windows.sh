@@ -15,7 +15,7 @@ command -v x86_64-w64-mingw32-g++-posix >/dev/null || need="$need g++-mingw-w64-
 wine=$(command -v wine64 || command -v wine || true)
 [ -n "$wine" ] || [ -x /usr/lib/wine/wine64 ] || need="$need wine wine64"
 [ -e /usr/include/doctest/doctest.h ] || need="$need doctest-dev"
-[ -e .venv/bin/cmake ] || { echo "tools/windows.sh: run ./test once first; it installs CMake and Ninja" >&2; exit 1; }
+[ -e build/tools/bin/cmake ] || { echo "tools/windows.sh: run ./test once first; it installs CMake" >&2; exit 1; }
 if [ -n "$need" ]; then
   if [ "$(id -u)" = 0 ]; then
     apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq $need >/dev/null
@@ -26,7 +26,7 @@ if [ -n "$need" ]; then
 fi
 wine=$(command -v wine64 || command -v wine || echo /usr/lib/wine/wine64)
 
-export PATH=$root/.venv/bin:$PATH
+export PATH=$root/.venv/bin:$root/build/tools/bin:$PATH
 # Copy doctest alone, because its folder also has system headers that are not for Windows.
 mkdir -p build/windows/include && ln -sfn /usr/include/doctest build/windows/include/doctest
 cmake -S . -B build/windows/tree -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/cmake/mingw-w64.cmake" \

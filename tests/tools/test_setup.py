@@ -1,4 +1,4 @@
-"""The set-up of ./run and ./test installs the dependencies with uv, here an artificial one, and else with pip."""
+"""The set-up of ./run and ./test, with an artificial uv."""
 
 from __future__ import annotations
 
@@ -15,80 +15,95 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the set-up is a
 INSTALL = """
 root=$1
 source "$root/tools/setup.sh"
-pip() { if [ "$1" = config ]; then echo "$SETTINGS"; else echo "pip $*"; fi; }
-step Title install install_all test
+python=/usr/bin/python3 python_minor=3.99
+step Title install install_all all
+"""
+UV = """
+echo "$* index=${UV_DEFAULT_INDEX:-} links=${UV_FIND_LINKS:-} proxy=${ALL_PROXY:-} cert=${SSL_CERT_FILE:-}"
+case "$*" in
+  *" venv "*) mkdir -p .venv/bin && cp build/tools/bin/python .venv/bin && touch .venv/fresh ;;
+  *" build "*) mkdir -p build/wheel && touch build/wheel/punctura.whl ;;
+  *"-r "*) [ ! -e full ] || { echo "No space left on device" && exit 2; } ;;
+esac
 """
 
 
 class SetUp:
-    """`install_all` in a separate tree, whose uv is a script."""
+    """`install_all` in a separate tree."""
 
-    def __init__(self, root: Path, uv: str, settings: str = "") -> None:
-        """settings: of pip, as `pip config list` prints them."""
+    def __init__(self, root: Path) -> None:
         self.root = root
         (root / "tools").symlink_to(ROOT / "tools")
-        self.commands = root / ".venv/bin"
-        self.commands.mkdir(parents=True)
-        self.command("python", f'[ -z "$2" ] && set -- "$1" "{root}/packages"; exec "{sys.executable}" "$@"')
-        self.command("uv", uv)
-        done = subprocess.run(
-            ["bash", "-c", INSTALL, "bash", str(root)],
-            capture_output=True,
-            text=True,
-            timeout=60,
-            env={**os.environ, "SETTINGS": settings},
-        )
+        (root / "pyproject.toml").symlink_to(ROOT / "pyproject.toml")
+        self.program("build/tools/bin/uv", UV)
+        # `pip config list`, and the question about a .venv made by hand
+        self.program("build/tools/bin/python", f'[ "$1" = -c ] && echo "3.99 {root}/.venv" || echo "$SETTINGS"')
+
+    def program(self, name: str, script: str) -> None:
+        (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / name).write_text(f"#!/bin/bash\n{script}\n")
+        (self.root / name).chmod(0o755)
+
+    def start(self, settings: str = "") -> subprocess.CompletedProcess[str]:
+        """settings: of pip, as `pip config list` prints them."""
+        clean = {key: value for key, value in os.environ.items() if not key.startswith(("UV_", "SSL_", "ALL_PROXY"))}
+        command = ["bash", "-c", INSTALL, "bash", str(self.root)]
+        environment = {**clean, "SETTINGS": settings}
+        return subprocess.run(command, cwd=self.root, env=environment, capture_output=True, text=True, timeout=60)
+
+    def lines(self, settings: str = "") -> list[str]:
+        """What the start tells uv."""
+        done = self.start(settings)
         assert done.returncode == 0, done.stdout + done.stderr
-
-    def command(self, name: str, script: str) -> None:
-        file = self.commands / name
-        file.write_text(f"#!/bin/sh\n{script}\n")
-        file.chmod(0o755)
-
-    def log(self, name: str) -> str:
-        return (self.root / "build/log" / f"{name}.log").read_text()
+        return (self.root / "build/log/install.log").read_text().splitlines()
 
 
-def incomplete_package(root: Path) -> Path:
-    record = root / "packages/kind-1.dist-info"
-    record.mkdir(parents=True)
-    (record / "METADATA").write_text("Name: kind\nVersion: 1\n")
-    return record
+@pytest.fixture
+def set_up(tmp_path: Path) -> SetUp:
+    return SetUp(tmp_path)
 
 
-def test_a_package_that_an_interrupted_set_up_left_incomplete_is_installed_again(tmp_path):
-    record = incomplete_package(tmp_path)
-    set_up = SetUp(tmp_path, f'[ ! -e "{record}" ] && echo "installs all"')
-    assert "installs all" in set_up.log("uv")
+def test_uv_makes_the_environment_and_installs_what_is_locked_then_the_project(set_up: SetUp) -> None:
+    venv, packages, build, project = set_up.lines()
+    assert " venv " in venv and " build --wheel --no-build-isolation " in build and "punctura.whl" in project
+    for part in ("-c {}/requirements.lock", "--extra all", "scikit-build-core==", "nanobind==", "--no-config"):
+        assert part.format(set_up.root) in packages
+    assert not [line for line in set_up.lines() if " venv " in line], "the second time it is there"
 
 
-def test_pip_installs_what_a_failed_uv_left_incomplete(tmp_path):
-    record = tmp_path / "packages/kind-1.dist-info"
-    set_up = SetUp(tmp_path, f'mkdir -p "{record}"; echo "error: No space left on device"; exit 2')
-    assert not record.exists()
-    assert "pip install --progress-bar off --no-build-isolation" in set_up.log("install")
+def test_an_environment_in_which_an_installation_failed_is_made_again(set_up: SetUp) -> None:
+    (set_up.root / "full").touch()
+    failed = set_up.start()
+    assert failed.returncode == 1 and "The disk is full" in failed.stderr
+    (set_up.root / ".venv/incomplete").touch()
+    (set_up.root / "full").unlink()
+    assert " venv " in set_up.lines()[0]
+    assert not (set_up.root / ".venv/incomplete").exists()
 
 
-def test_what_uv_says_does_not_decide_about_the_advice_after_a_failure_of_pip(tmp_path):
-    set_up = SetUp(tmp_path, 'echo "error: Failed to fetch: http://mirror/simple/h11/"; exit 2')
-    assert "Failed to fetch" in set_up.log("uv")
-    assert "Failed to fetch" not in set_up.log("install")
+def test_an_environment_made_by_hand_is_kept_also_after_a_failure(set_up: SetUp) -> None:
+    set_up.program(".venv/bin/python", (set_up.root / "build/tools/bin/python").read_text())
+    (set_up.root / "full").touch()
+    set_up.start()
+    (set_up.root / "full").unlink()
+    packages, *_ = set_up.lines()
+    assert "--reinstall" in packages
+    assert "--reinstall " not in set_up.lines()[0]
+    assert not (set_up.root / ".venv/fresh").exists()
 
 
-def test_settings_of_uv_for_other_projects_do_not_lead_the_dependencies_elsewhere(tmp_path):
-    set_up = SetUp(tmp_path, 'echo "$@"')
-    assert "pip install --no-config" in set_up.log("uv")
-
-
-def test_settings_of_pip_that_uv_would_not_read_leave_all_to_pip(tmp_path):
-    set_up = SetUp(tmp_path, 'echo "$@"', "global.index-url='https://mirror.example/simple'")
-    assert "pip install --progress-bar off --no-build-isolation" in set_up.log("install")
-    assert not (tmp_path / "build/log/uv.log").exists()
-
-
-def test_a_folder_of_packages_in_pips_settings_is_given_to_uv(tmp_path):
-    set_up = SetUp(tmp_path, 'echo "$@"', ":env:.find-links='/opt/wheels'\nglobal.cert='/etc/ssl/cert.pem'")
-    assert "--find-links /opt/wheels --python" in set_up.log("uv")
+@pytest.mark.parametrize(
+    ("setting", "given"),
+    [
+        ("global.index-url='https://mirror.example/simple'", "index=https://mirror.example/simple"),
+        (":env:.find-links='/opt/a\\n/opt/b'", "links=/opt/a,/opt/b"),
+        ("global.proxy='http://proxy:3128'\nglobal.cert='/etc/c.pem'", "proxy=http://proxy:3128 cert=/etc/c.pem"),
+        ("user.constraint='/etc/c.txt'", "-c /etc/c.txt"),
+        ("global.no-index='true'", "--no-index"),
+    ],
+)
+def test_settings_of_pip_lead_uv(set_up: SetUp, setting: str, given: str) -> None:
+    assert given in set_up.lines(setting)[1]
 
 
 def test_precompiled_headers_are_emptied_and_stay_as_old_as_they_were(tmp_path):
