@@ -18,6 +18,8 @@ ROUNDS, NEAR = 10, 11  # of the accelerations; second differences of alike varia
 SHARED = (0.2, 0.6, 0.2)  # of the square of a second difference, with its neighbours: a turn is between two samples
 LEAST, MOST = 1e-7, 1e4  # variance of a second difference, in those of the noise
 FELT = 0.2  # of the noise of the force: what the noise of the depth adds matters beyond it
+ROUNDING = 1e-6  # of the range of the depths: less is no noise
+EVEN = 1.5  # times the shortest step of time, of the longest one
 SHORTEST = 50  # samples of a trace
 WHITE = 0.8  # of the samples are independent: they are noise
 SURE = 5.0  # standard deviations of chance: a correlation beyond it is no chance
@@ -26,16 +28,28 @@ SURE = 5.0  # standard deviations of chance: a correlation beyond it is no chanc
 def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, float]:
     """The trace with the depth that the needle most likely had, and with draws of it: `trace.depths`; and the noise.
 
-    noise: of a depth, m; None: as the trace shows it. The same trace and 0 come back where the noise adds too little
-    force to matter, and where the force follows the depth's noise: then the needle moved so.
+    noise: of a depth, m; None: as samples at even steps of time show it. The same trace and 0 come back where
+    the noise adds too little force to matter, and where the force follows the depth's noise: then the needle moved so.
     """
-    shaking = noise_of(trace.depth) if noise is None else noise
-    if len(trace) < SHORTEST or shaking * _stiffest(trace) <= FELT * noise_of(trace.force):
+    shaking = _noise(trace) if noise is None else noise
+    if (
+        len(trace) < SHORTEST
+        or shaking <= ROUNDING * np.ptp(trace.depth)
+        or shaking * _stiffest(trace) <= FELT * noise_of(trace.force)
+    ):
         return trace, 0.0
     quiet, variances = _quiet(trace.depth / shaking)
     if noise is None and _follows(trace, trace.depth - shaking * quiet):
         return trace, 0.0
     return replace(trace, depth=shaking * quiet, depths=shaking * (quiet + _draws(variances))), shaking
+
+
+def _noise(trace: Trace) -> float:
+    """The noise of the depth, m, where it can be told from the motion: the samples have a time, at even steps."""
+    if trace.time is None:
+        return 0.0
+    steps = np.diff(trace.time)
+    return noise_of(trace.depth) if steps.max() < EVEN * steps.min() else 0.0
 
 
 def _stiffest(trace: Trace) -> float:

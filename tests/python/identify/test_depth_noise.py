@@ -61,6 +61,21 @@ def test_a_motion_that_the_force_follows_is_no_noise():
     assert with_quiet_depth(Trace(shaken, force, exact.time))[1] == 0.0
 
 
+def test_uneven_samples_are_no_noise():
+    """A digitised curve has no time, or time at uneven steps: its depth seems to shake."""
+    trace, _, _ = by_machine(1)
+    assert with_quiet_depth(replace(trace, time=None))[1] == 0.0
+    uneven = np.cumsum(np.random.default_rng(1).uniform(0.2, 1.8, len(trace))) * 5e-3
+    digitised = Trace(np.interp(uneven, trace.time, trace.depth), np.interp(uneven, trace.time, trace.force), uneven)
+    assert with_quiet_depth(digitised)[1] == 0.0
+
+
+def test_rounding_of_the_depth_is_no_noise():
+    exact, _, _ = by_machine(1, 0.0)
+    rounded = replace(exact, depth=np.round(exact.depth, 12), force=10 * exact.depth)
+    assert with_quiet_depth(rounded)[1] == 0.0
+
+
 def test_a_stated_noise_counts():
     trace, needle, _ = by_machine(3)
     assert identify(trace, needle, 1, rig=Rig(depth_noise=0.0)).rig == ()
