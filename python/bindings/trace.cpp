@@ -29,16 +29,21 @@ TraceParameters parameters_of(const Needle& needle, const nb::object& membranes,
   return {std::move(m), c};
 }
 
-/// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 17).
-FloatsPair pop_depths(const Needle& needle, const ArrayLike& membranes, const ArrayLike& coupling) {
+/// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 17 or 0).
+FloatsPair pop_depths(const Needle& needle, const ArrayLike& membranes, const ArrayLike& coupling, bool jacobian) {
   const auto [m, c] = parameters_of(needle, membranes, coupling);
   std::vector<double> depths, rows;
   for (const TraceMembrane& membrane : m) {
+    if (!jacobian) {
+      depths.push_back(trace_pop<double>(needle, membrane, c));
+      continue;
+    }
     const auto pop = trace_pop(needle, membrane, c);
     depths.push_back(pop.value);
     rows.insert(rows.end(), pop.d.begin(), pop.d.end());
   }
-  return {to_numpy(std::move(depths), {m.size()}), to_numpy(std::move(rows), {m.size(), trace_parameters(1)})};
+  const std::size_t columns = jacobian ? trace_parameters(1) : 0;
+  return {to_numpy(std::move(depths), {m.size()}), to_numpy(std::move(rows), {m.size(), columns})};
 }
 
 /// A measured motion, and the needle that made it. It does not change, so that any number of threads can use it.
@@ -57,18 +62,32 @@ class TraceModel {
     return "<TraceModel of " + std::to_string(depth_.size()) + (time_.empty() ? " depths>" : " depths with times>");
   }
 
-  FloatsPair forces(const ArrayLike& membranes, const ArrayLike& coupling, bool jacobian) const {
+  FloatsPair forces(const ArrayLike& membranes, const ArrayLike& coupling, bool jacobian,
+                    const std::vector<std::string>& by) const {
     const auto [m, c] = parameters_of(needle_, membranes, coupling);
+    const auto wanted = flags(by);
     const std::size_t n = depth_.size(), columns = jacobian ? trace_parameters(m.size()) : 0;
     std::vector<double> force(n), rows(n * columns);
     {
       const WithoutLock without;
-      trace_forces({needle_, depth_, time_}, m, c, force, rows);
+      trace_forces({needle_, depth_, time_}, m, c, force, rows, by.empty() ? std::span<const bool>{} : wanted);
     }
     return {to_numpy(std::move(force), {n}), to_numpy(std::move(rows), {n, columns})};
   }
 
  private:
+  static std::array<bool, trace_parameters(1)> flags(const std::vector<std::string>& names) {
+    std::array<bool, trace_parameters(1)> wanted{};
+    const auto& shared = trace_coupling_names;
+    for (const std::string& name : names) {
+      const auto c = std::find(shared.begin(), shared.end(), name);
+      const auto m = std::find(trace_membrane_names.begin(), trace_membrane_names.end(), name);
+      if (c == shared.end() && m == trace_membrane_names.end()) throw nb::value_error("by: see membrane_names");
+      const auto at = c != shared.end() ? c - shared.begin() : m - trace_membrane_names.begin() + std::ssize(shared);
+      wanted[static_cast<std::size_t>(at)] = true;
+    }
+    return wanted;
+  }
   static std::vector<double> values(const nb::object& given, const char* name) {
     const Input array = input(given, name);
     if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must be (n,)").c_str());
@@ -92,10 +111,13 @@ void bind_trace(nb::module_& m) {
             "depth: of the tip, (n,), m. time: (n,), s, ascending; None if nothing depends on time.");
   model.def("__repr__", &TraceModel::text);
   model.def("forces", &TraceModel::forces, nb::arg("membranes"), nb::arg("coupling"), nb::arg("jacobian") = true,
+            nb::arg("by") = std::vector<std::string>{},
             "The force that resists insertion (n,), N, and its derivatives (n, 6 + 11 m): by the coupling, then by "
             "each membrane.\n\nmembranes: (m, 11), coupling: (6,), SI, in the order of membrane_names and "
-            "coupling_names. Raises ConfigurationError.");
+            "coupling_names. by: names of parameters; derivatives by others are 0 (default: none is left out). Raises "
+            "ConfigurationError, ValueError.");
   model.def_static("pop_depths", &pop_depths, nb::arg("needle"), nb::arg("membranes"), nb::arg("coupling"),
+                   nb::arg("jacobian") = true,
                    "How far behind each surface the tip of a slow needle is when it pops (m,), m, and the derivatives "
                    "(m, 17): by the coupling, then by the membrane.");
   model.def_prop_ro_static(

@@ -60,7 +60,7 @@ class Misfit:
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
         parameters = free.parameters(u)
-        _, by_all = self._model.forces(parameters.membranes, parameters.coupling, True)
+        _, by_all = self._model.forces(parameters.membranes, parameters.coupling, by=free.kinds)
         return self._weighted(blurred(free.chain(np.hstack((by_all, self._nuisance)), u), blur))
 
     def _weighted(self, columns: Array) -> Array:
@@ -110,7 +110,7 @@ def blurred(columns: Array, width: int) -> Array:
 class Fit:
     """The result of a fit. u: coordinates; jacobian: (used samples, free), by the coordinates.
 
-    others: ends of other searches that are nearly as good, as parameters.
+    others: ends of other searches that are nearly as good, as parameters. hopped: hops from here find no better end.
     """
 
     misfit: Misfit
@@ -120,6 +120,7 @@ class Fit:
     jacobian: Array
     evaluations: int
     others: tuple[Parameters, ...] = ()
+    hopped: bool = False
 
     @property
     def parameters(self) -> Parameters:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,7 +27,7 @@ def with_hops(found: Fit) -> Fit:
     Only for several walls: for one, the convex start finds the optimum.
     """
     enough = noise_limit(found.misfit.trace)
-    if len(found.parameters.membranes) < 2 or found.rmse < enough:
+    if len(found.parameters.membranes) < 2 or found.rmse < enough or found.hopped:
         return found
     rng = np.random.default_rng(0)
     best, idle = found, 0
@@ -36,7 +38,7 @@ def with_hops(found: Fit) -> Fit:
             best = end
         if idle == IDLE or best.rmse < enough:
             break
-    return best
+    return replace(best, hopped=True)
 
 
 def _hopped(best: Fit, rng: np.random.Generator) -> Fit | None:

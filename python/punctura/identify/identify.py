@@ -168,7 +168,7 @@ def _identified(
         known += [RigValue(f"{name}_tolerance", *one, True) for name, one in of_needle.items() if one[0]]
     effective = effective_samples(final.residuals, len(final.u))
     doubt = doubts(trace, segments, final, choice.current.extensions)
-    said = verdicts(found, trace, segments, few_fit, doubt.explained.ok)
+    said = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
     said = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *said, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
 

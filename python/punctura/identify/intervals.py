@@ -143,4 +143,9 @@ def _bounds(uncertainty: Uncertainty, j: int, used: float, watch: Watch) -> tupl
         if spread > float(np.ptp(fit.misfit.trace.depth)):
             return None, None
         return value - spread, value + spread
-    return bound(uncertainty, j, -1, used, watch), bound(uncertainty, j, 1, used, watch)
+    found = bound(uncertainty, j, -1, used, watch), bound(uncertainty, j, 1, used, watch)
+    if kind_of(fit.free.names[j]) != "offset":
+        return found
+    air = float(fit.free.low[j]), float(fit.free.high[j])  # it bounds the offset where the fit does not
+    low, high = (edge if one is None and np.isfinite(edge) else one for one, edge in zip(found, air, strict=True))
+    return low, high

@@ -56,12 +56,8 @@ class Parameters:
         """The same needle with other values."""
         m = len(self.membranes)
         first, last = len(COUPLING), len(COUPLING) + m * len(MEMBRANE)
-        return replace(
-            self,
-            coupling=vector[:first].copy(),
-            membranes=vector[first:last].reshape(m, len(MEMBRANE)).copy(),
-            nuisance=vector[last:].copy(),
-        )
+        rows = vector[first:last].reshape(m, len(MEMBRANE)).copy()
+        return Parameters(self.needle, rows, vector[:first].copy(), vector[last:].copy())
 
     def with_values(self, values: Mapping[str, float]) -> Parameters:
         """Some values changed, by name."""
@@ -134,10 +130,14 @@ class Free:
         m = len(base.membranes)
         self._at = [np.array(indices(name, m)) for name in self.names]
         self._log = np.array([kind_of(name) in _LOGARITHMIC for name in self.names])
+        self._rows = np.concatenate([*self._at, np.zeros(0, int)]).astype(int)  # in the vector, and whose they are:
+        self._owner = np.repeat(np.arange(len(self.names)), [len(at) for at in self._at])
+        self.kinds = [kind for kind in (*COUPLING, *MEMBRANE) if kind in map(kind_of, self.names)]
+        self._last: tuple[bytes, Array] | None = None  # coordinates, and the vector of all parameters
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
         self.low, self.high = self._coordinates(low), self._coordinates(high)
         surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
-        pops = self._pops(base.vector())[0] if np.isfinite(deepest) else np.zeros(m)
+        pops = self._pops(base.vector(), False)[0] if np.isfinite(deepest) else np.zeros(m)
         # each free surface whose pop is seen: its coordinate, and its membrane
         self.walls = [
             (k, surfaces.index(at[0]))
@@ -162,7 +162,7 @@ class Free:
         values = np.where(self._log, np.maximum(values, np.maximum(small, 1e-12)), values)
         u = np.clip(self._coordinates(values), self.low, self.high)
         if self.walls:
-            pops, _ = self._pops(self._without_pops(u))
+            pops, _ = self._pops(self._without_pops(u), False)
             for k, wall in self.walls:
                 u[k] += pops[wall]
         return np.clip(u, self.low, self.high)
@@ -171,22 +171,24 @@ class Free:
         """The vector of all parameters for these coordinates, if those of the surfaces were the surfaces."""
         vector = self.base.vector()
         values = np.where(self._log, np.exp(np.where(self._log, u, 0.0)), u)
-        for at, value in zip(self._at, values, strict=True):
-            vector[at] = value
+        vector[self._rows] = values[self._owner]
         return vector
 
-    def _pops(self, vector: Array) -> tuple[Array, Array]:
+    def _pops(self, vector: Array, jacobian: bool) -> tuple[Array, Array]:
         p = self.base.with_vector(vector)
-        return TraceModel.pop_depths(p.needle, p.membranes, p.coupling)
+        return TraceModel.pop_depths(p.needle, p.membranes, p.coupling, jacobian=jacobian)
 
     def parameters(self, u: Array) -> Parameters:
-        """All parameters for these coordinates."""
-        vector = self._without_pops(u)
-        if self.walls:
-            pops, _ = self._pops(vector)
-            for k, wall in self.walls:
-                vector[self._at[k]] -= pops[wall]
-        return self.base.with_vector(vector)
+        """All parameters for these coordinates. A search asks twice in turn: for the residuals and the derivatives."""
+        asked = u.tobytes()
+        if self._last is None or self._last[0] != asked:
+            vector = self._without_pops(u)
+            if self.walls:
+                pops, _ = self._pops(vector, False)
+                for k, wall in self.walls:
+                    vector[self._at[k]] -= pops[wall]
+            self._last = asked, vector
+        return self.base.with_vector(self._last[1])
 
     def place(self, j: int) -> int:
         """Where parameter j first stands in the vector of all parameters."""
@@ -205,10 +207,9 @@ class Free:
         """Derivatives of the vector of all parameters by the coordinates: (parameters, free)."""
         vector = self._without_pops(u)
         by_u = np.zeros((len(vector), len(u)))
-        for k, at in enumerate(self._at):
-            by_u[at, k] = vector[at[0]] if self._log[k] else 1.0
+        by_u[self._rows, self._owner] = np.where(self._log[self._owner], vector[self._rows], 1.0)
         if self.walls:
-            _, rows = self._pops(vector)
+            _, rows = self._pops(vector, True)
             shared, own = len(COUPLING), len(MEMBRANE)
             for k, wall in self.walls:
                 first = shared + wall * own

@@ -10,7 +10,7 @@ from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
-from punctura.trace import Segments, Trace, segment
+from punctura.trace import Segments, Trace
 
 # What shows a parameter: (what the trace must lack for this advice, advice). The first one that fits is given.
 THROUGH = ("pop", "insert until the tip is through")
@@ -52,22 +52,22 @@ DRIFTING = 1.5  # times the other noise: with more slow noise, the interval of a
 
 
 def verdicts(
-    estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, explained: bool = True
+    estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, air: AirNoise, explained: bool = True
 ) -> tuple[str, ...]:
     """One sentence for each thing that the trace cannot tell, with the experiment that would.
 
-    fit: of all samples, or of the thinned ones, for the noise. explained: False if it is said that it is not.
+    fit: of all samples, or of the thinned ones, for the noise; air: of the same samples. explained: False if it is said
+    that it is not.
     """
-    unknown = _not_identifiable(estimates, trace, segments)
-    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, explained))
+    unknown = _not_identifiable(estimates, trace, segments) if explained else _no_bounds(estimates)
+    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained))
 
 
-def _drifting(fit: Fit, explained: bool) -> Iterator[str]:
+def _drifting(fit: Fit, air: AirNoise, explained: bool) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
     if slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
-    trace = fit.misfit.trace
-    if not AirNoise(trace, segment(trace)).allows(*fit.noise.most_likely()):
+    if not air.allows(*fit.noise.most_likely()):
         if explained:
             yield (
                 f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
@@ -88,6 +88,13 @@ def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Seg
             known = _EXPERIMENTS.get(kind_of(estimate.name), ())
             advice = next(text for lacking, text in (*known, MORE) if lacking not in has)
             yield f"{estimate.name} is not identifiable from this trace: {advice}."
+
+
+def _no_bounds(estimates: Sequence[Estimate]) -> Iterator[str]:
+    """Without a model that is right, nothing says which experiment would tell a parameter."""
+    if names := [estimate.name for estimate in estimates if not estimate.identifiable]:
+        told = ", ".join(names)
+        yield f"Not identifiable, as far as this model goes: {told}. A model that explains the trace comes first."
 
 
 def _parts(trace: Trace, segments: Segments, walls: int) -> frozenset[str]:

@@ -5,6 +5,7 @@ import pytest
 from punctura.identify.air_noise import AirNoise
 from punctura.identify.criteria import Rule, candidate
 from punctura.identify.fit import Misfit, fit
+from punctura.identify.intervals import estimates
 from punctura.identify.model import Model, extensions
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.slow_noise import Mixture
@@ -51,7 +52,8 @@ def test_a_relaxation_is_preferred_where_the_air_excludes_a_drift():
 def test_a_model_that_does_not_explain_the_trace_is_named_once():
     made, model = silicone(), Model(1)
     found = fit(Misfit(made, one_wall()), model.names, one_wall())
-    texts = [verdicts((), made, segment(made), found, explained) for explained in (True, False)]
+    air = AirNoise(made, segment(made))
+    texts = [verdicts((), made, segment(made), found, air, explained) for explained in (True, False)]
     assert ["misses the measured force" in " ".join(text) for text in texts] == [True, False]
 
 
@@ -74,3 +76,10 @@ def test_the_air_bounds_a_slow_noise(slow, allowed):
     air = AirNoise(made, segment(made))
     assert air.allows(Mixture(0.0, 1.0), NOISE**2)
     assert air.allows(Mixture(slow**2 / (1 + slow**2), 100.0), variance) == allowed
+
+
+def test_the_air_bounds_an_offset_that_the_fit_leaves_open():
+    made, model, zero = silicone(), Model(1), 1e-3
+    found = fit(Misfit(made, one_wall(), zero=(-zero, zero)), model.names, one_wall())
+    offset = next(one for one in estimates(found, stops=False, outwards=False) if one.name == "offset")
+    assert offset.identifiable and (offset.low, offset.high) == pytest.approx((-zero, zero), rel=0.1)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.doubts import doubts
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import Estimate
@@ -141,6 +142,11 @@ def test_the_command_names_it_and_draws_it(punctura, tmp_path):
     assert "The way out is asymmetric" in (tmp_path / "a.html").read_text()
 
 
+def of(made, *estimates, explained=True):
+    segments = segment(made)
+    return verdicts(estimates, made, segments, fitted(made), AirNoise(made, segments), explained)
+
+
 def unknown(name):
     return Estimate(name, 1.0, None, None, "-")
 
@@ -151,9 +157,14 @@ def unknown(name):
 def test_no_advice_asks_for_what_the_trace_has(kind):
     made = trace(noise=8e-3, times=2, hold=70.0)
     name = kind if kind in ("coupling_stiffness", "drift") else f"membrane[0].{kind}"
-    text = verdicts([unknown(name)], made, segment(made), fitted(made))[0]
+    text = of(made, unknown(name))[0]
     for wrong in ("withdrawal", "withdraw,", "and withdraw", "before contact", "second time", "through", "rest for"):
         assert wrong not in text, text
     short = made[: int(np.argmax(made.depth > 7e-3))]
-    less = verdicts([unknown("membrane[0].stiffness")], short, segment(short), fitted(short))[0]
-    assert "insert until the tip is through" in less
+    assert "insert until the tip is through" in of(short, unknown("membrane[0].stiffness"))[0]
+
+
+def test_no_experiment_is_advised_for_a_parameter_of_a_model_that_does_not_explain_the_trace():
+    made = trace(noise=8e-3)
+    said = of(made, unknown("relaxation_1_time"), unknown("membrane[0].friction"), explained=False)[0]
+    assert "relaxation_1_time, membrane[0].friction" in said and "rest for" not in said

@@ -38,7 +38,7 @@ def test_a_drift_is_not_taken_for_a_relaxation_and_is_named(monkeypatch):
     ends = [fit(misfit, large.names, large.start(one.fit.parameters, weak)) for weak in (True, False)]
     two = candidate("relaxation", large, min(ends, key=lambda end: end.sse))
     assert not rule.prefers(two, one)
-    assert any("drifts slowly" in text for text in verdicts((), made, segment(made), one.fit))
+    assert any("drifts slowly" in text for text in verdicts((), made, segment(made), one.fit, rule.air))
     monkeypatch.setattr(Rule, "_may_be_drift", lambda self, new, old: False)
     assert rule.prefers(two, one)  # the noise is of the kind that looks like a relaxation
 
@@ -55,8 +55,9 @@ def test_a_relaxation_of_the_tissue_is_still_preferred():
     misfit, (small, large) = Misfit(made, plain), models(NEEDLE)
     one = candidate("K06", small, fit(misfit, small.names, plain))
     two = candidate("relaxation", large, fit(misfit, large.names, relaxing))
-    assert Rule(made, segment(made)).prefers(two, one)
-    assert not any("drifts slowly" in text for text in verdicts((), made, segment(made), two.fit))
+    rule = Rule(made, segment(made))
+    assert rule.prefers(two, one)
+    assert not any("drifts slowly" in text for text in verdicts((), made, segment(made), two.fit, rule.air))
 
 
 @pytest.mark.parametrize(("slow", "white"), [(0.0, 1.0), (3.0, 1.0)])

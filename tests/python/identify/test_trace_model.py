@@ -84,3 +84,22 @@ def test_parameters_out_of_range_are_refused_with_their_place():
         model.forces([K06[:4]], COUPLING)
     with pytest.raises(ValueError, match="time must ascend"):
         TraceModel(pn.Needle(1e-3, 0.3), [0, 1, 2], [0, 1, 1])
+
+
+def test_only_the_wanted_derivatives_are_computed_and_they_are_the_same():
+    model = TraceModel(NEEDLE, np.linspace(0, 20e-3, 300))
+    force, every = model.forces([K06, K06], [4000, 1, 0, 1, 0, 1])
+    names = np.array([*TraceModel.coupling_names, *TraceModel.membrane_names, *TraceModel.membrane_names])
+    for by in (["coupling_stiffness", "surface"], ["friction", *TraceModel.coupling_names, "set"]):
+        same, some = model.forces([K06, K06], [4000, 1, 0, 1, 0, 1], by=by)
+        wanted = np.isin(names, by)
+        assert np.array_equal(same, force) and np.array_equal(some[:, wanted], every[:, wanted])
+        assert not some[:, ~wanted].any() and every[:, ~wanted].any()
+    with pytest.raises(ValueError, match="membrane_names"):
+        model.forces([K06], [4000, 1, 0, 1, 0, 1], by=["softness"])
+
+
+def test_the_place_of_a_pop_is_the_same_without_its_derivatives():
+    places, rows = TraceModel.pop_depths(NEEDLE, [K06], [4000, 1, 0, 1, 0, 1])
+    alone, none = TraceModel.pop_depths(NEEDLE, [K06], [4000, 1, 0, 1, 0, 1], jacobian=False)
+    assert np.array_equal(places, alone) and rows.shape == (1, 17) and none.shape == (1, 0)

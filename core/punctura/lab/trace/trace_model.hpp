@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -86,6 +87,19 @@ namespace detail {
 constexpr std::size_t coupling_seeds = trace_coupling_names.size(), membrane_seeds = trace_membrane_names.size();
 using TraceDual = Dual<coupling_seeds + membrane_seeds>;  ///< derivatives: the coupling, then one membrane
 
+/// Which derivative of a dual number is that by a parameter (the coupling's, then a membrane's); `none`: it has none.
+struct TraceSeeds {
+  static constexpr std::uint8_t none = 255;
+  std::array<std::uint8_t, coupling_seeds + membrane_seeds> slot;
+  std::size_t count = 0;
+
+  /// wanted: a flag for each parameter; empty: all.
+  explicit constexpr TraceSeeds(std::span<const bool> wanted = {}) noexcept {
+    for (std::size_t i = 0; i < slot.size(); ++i)
+      slot[i] = wanted.empty() || wanted[i] ? static_cast<std::uint8_t>(count++) : none;
+  }
+};
+
 /// Copies what jump_of() reads of a state, without the pieces.
 template <typename State>
 void copy_for_jump(State& to, const State& from) noexcept {
@@ -116,13 +130,17 @@ struct Relaxing {
 struct TraceRows {
   std::span<double> force, jacobian;
   std::size_t columns, first_column;  // first_column: of this membrane
+  TraceSeeds seeds;
 
   void add(std::size_t k, double f) const noexcept { force[k] += f; }
-  void add(std::size_t k, const TraceDual& f) const noexcept {
+  template <std::size_t N>
+  void add(std::size_t k, const Dual<N>& f) const noexcept {
     force[k] += f.value;
     double* row = &jacobian[k * columns];
-    for (std::size_t i = 0; i < coupling_seeds; ++i) row[i] += f.d[i];
-    for (std::size_t i = 0; i < membrane_seeds; ++i) row[first_column + i] += f.d[coupling_seeds + i];
+    for (std::size_t i = 0; i < seeds.slot.size(); ++i) {
+      const std::size_t column = i < coupling_seeds ? i : first_column + i - coupling_seeds;
+      if (seeds.slot[i] < N) row[column] += f.d[seeds.slot[i]];
+    }
   }
 };
 
@@ -194,15 +212,15 @@ void with_law(const BasicNeedle<Scalar>& needle, const std::array<Scalar, membra
     use(*std::make_unique<BasicTissueLaw<Scalar>>(needle, membrane, tissue, Scalar(1), trace_chords));  // 0.1 MB
 }
 
-/// The parameters as dual numbers, each with its own derivative, or as they are.
+/// The parameters as dual numbers, each with its own derivative if it is wanted, or as they are.
 template <typename Scalar, std::size_t N>
-std::array<Scalar, N> seeded(const std::array<double, N>& values, [[maybe_unused]] std::size_t first) noexcept {
+std::array<Scalar, N> seeded(const std::array<double, N>& values, [[maybe_unused]] std::size_t first,
+                             [[maybe_unused]] const TraceSeeds& seeds = TraceSeeds{}) noexcept {
   std::array<Scalar, N> made;
   for (std::size_t i = 0; i < N; ++i) {
-    if constexpr (std::is_same_v<Scalar, double>)
-      made[i] = values[i];
-    else
-      made[i] = Scalar::parameter(values[i], first + i);
+    made[i] = values[i];
+    if constexpr (!std::is_same_v<Scalar, double>)
+      if (const auto slot = seeds.slot[first + i]; slot != TraceSeeds::none) made[i].d[slot] = 1;
   }
   return made;
 }
@@ -236,9 +254,9 @@ template <typename Scalar>
 void add_membranes(const TraceMotion& motion, std::span<const TraceMembrane> membranes, const TraceCoupling& coupling,
                    TraceRows rows) {
   const BasicNeedle<Scalar> needle{motion.needle.diameter, motion.needle.tip_angle};
-  const auto c = seeded<Scalar>(coupling, 0);
+  const auto c = seeded<Scalar>(coupling, 0, rows.seeds);
   for (std::size_t m = 0; m < membranes.size(); ++m) {
-    const auto p = seeded<Scalar>(membranes[m], coupling_seeds);
+    const auto p = seeded<Scalar>(membranes[m], coupling_seeds, rows.seeds);
     rows.first_column = trace_parameters(m);
     const auto add = [&](const auto& law) {
       if (coupling[2] > 0 || coupling[4] > 0)
@@ -252,29 +270,38 @@ void add_membranes(const TraceMotion& motion, std::span<const TraceMembrane> mem
 
 }  // namespace detail
 
-/// The depth of the tip behind the surface at which a slow needle pops, m, and its derivatives: by the coupling, then
-/// by the membrane.
-inline detail::TraceDual trace_pop(const Needle& needle, const TraceMembrane& membrane, const TraceCoupling& coupling) {
+/// The depth of the tip behind the surface at which a slow needle pops, m; a dual number has its derivatives, too: by
+/// the coupling, then by the membrane.
+template <typename Scalar = detail::TraceDual>
+Scalar trace_pop(const Needle& needle, const TraceMembrane& membrane, const TraceCoupling& coupling) {
   using namespace detail;
-  const auto c = seeded<TraceDual>(coupling, 0);
-  const TraceDual spring = c[0] + c[2] + c[4];  // the branches relax little on the way to a pop
-  TraceDual depth;
-  with_law(BasicNeedle<TraceDual>{needle.diameter, needle.tip_angle}, seeded<TraceDual>(membrane, coupling_seeds),
+  const auto c = seeded<Scalar>(coupling, 0);
+  const Scalar spring = c[0] + c[2] + c[4];  // the branches relax little on the way to a pop
+  Scalar depth;
+  with_law(BasicNeedle<Scalar>{needle.diameter, needle.tip_angle}, seeded<Scalar>(membrane, coupling_seeds),
            [&](const auto& law) { depth = pop_depth(law, spring); });
   return depth;
 }
 
 /// The force that resists insertion at each sample (n), N, as the exact solver gives it, and its derivatives.
 ///
-/// jacobian: n rows of trace_parameters(m) numbers: by the coupling, then by each membrane; or empty. The tip begins
-/// outside all membranes. All membranes share one coupling. The parameters must have passed problems_of_trace().
+/// jacobian: n rows of trace_parameters(m) numbers: by the coupling, then by each membrane; or empty. wanted: which
+/// derivatives, a flag for each parameter of the coupling, then for each of a membrane (empty: all); the others are 0.
+/// The tip begins outside all membranes. All membranes share one coupling. The parameters must have passed
+/// problems_of_trace().
 inline void trace_forces(const TraceMotion& motion, std::span<const TraceMembrane> membranes,
-                         const TraceCoupling& coupling, std::span<double> force, std::span<double> jacobian) {
+                         const TraceCoupling& coupling, std::span<double> force, std::span<double> jacobian,
+                         std::span<const bool> wanted = {}) {
   std::fill(force.begin(), force.end(), 0.0);
   std::fill(jacobian.begin(), jacobian.end(), 0.0);
-  const detail::TraceRows rows{force, jacobian, trace_parameters(membranes.size()), 0};
+  const detail::TraceSeeds seeds{wanted};
+  const detail::TraceRows rows{force, jacobian, trace_parameters(membranes.size()), 0, seeds};
   if (jacobian.empty())
     detail::add_membranes<double>(motion, membranes, coupling, rows);
+  else if (seeds.count <= 6)  // K06 itself: a dual number costs as much as it has derivatives
+    detail::add_membranes<Dual<6>>(motion, membranes, coupling, rows);
+  else if (seeds.count <= 10)
+    detail::add_membranes<Dual<10>>(motion, membranes, coupling, rows);
   else
     detail::add_membranes<detail::TraceDual>(motion, membranes, coupling, rows);
 }
