@@ -168,7 +168,7 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
 
 
 def _failed(path: Path, task: Task, reason: str) -> FailedRecord:
-    return {"task": task.key(), "stamp": _stamp(path), "error": reason, "source": str(path), "parameters": []}
+    return {"task": task.key(), "stamp": _stamp(path), "error": reason, "trace": str(path), "parameters": []}
 
 
 def _stamp(path: Path) -> list[int]:
@@ -194,7 +194,7 @@ def _known(result: Path, path: Path, task: Task) -> TraceRecord | None:
 
 def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
     rows: list[TraceRow] = [
-        {"trace": _shown(told["source"]), "rmse_N": told["rmse_N"], "membranes": told["membranes"],
+        {"trace": _shown(told["trace"]), "rmse_N": told["rmse_N"], "membranes": told["membranes"],
          "extensions": ", ".join(told["extensions"]), **parameter}
         for told in results if told["error"] is None for parameter in told["parameters"]
     ]  # fmt: skip
@@ -202,7 +202,7 @@ def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
     for name, table in (("traces.parquet", rows), ("population.parquet", people)):
         with whole_file(out / name) as place:
             pa.parquet.write_table(pa.Table.from_pylist(table), place)
-    failed = {_shown(told["source"]): told["error"] for told in results if told["error"] is not None}
+    failed = {_shown(told["trace"]): told["error"] for told in results if told["error"] is not None}
     return {"traces": len(results), "identified": len(results) - len(failed), "kept": kept, "failed": failed,
             "population": people}  # fmt: skip
 

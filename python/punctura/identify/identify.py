@@ -80,13 +80,13 @@ class Identification:
         """Everything as plain values for JSON: SI units, `rmse_N` among the numbers."""
         chosen, needle = self.candidates[0], self.parameters.needle
         return {
-            "source": self.trace.source,
+            "trace": self.trace.source,
             "samples": len(self.trace),
             "effective_samples": self.effective_samples,
             "membranes": len(self.parameters.membranes),
             "extensions": list(self.extensions),
             "rmse_N": self.fit.rmse,
-            "rmse_of_peak": self.fit.rmse / self.peak,
+            "rmse_share_of_peak": self.fit.rmse / self.peak,
             "held_out_rmse_N": chosen.held_out,
             "needle": {"diameter_m": needle.diameter, "tip_angle_rad": needle.tip_angle},
             "parameters": [
@@ -98,11 +98,11 @@ class Identification:
             "rig": [{"name": r.name, "value": r.value, "unit": r.unit, "stated": r.stated} for r in self.rig],
             "findings": [{"kind": f.kind, "text": f.text, "repaired": f.repaired} for f in self.trace.findings],
             "explained": self.doubts.as_dict(),
-            "not_told": list(self.verdicts),
+            "verdicts": list(self.verdicts),
             "models": [
                 {"name": c.name, "extensions": list(c.extensions), "rmse_N": c.fit.rmse, "parameters": len(c.fit.u),
-                 "membranes": c.model.membranes, "AICc": worth.aic if np.isfinite(worth.aic) else None,
-                 "BIC": worth.bic, "held_out_rmse_N": c.held_out}
+                 "membranes": c.model.membranes, "aicc": worth.aic if np.isfinite(worth.aic) else None,
+                 "bic": worth.bic, "held_out_rmse_N": c.held_out}
                 for c in self.candidates for worth in [c.worth(chosen.effective)]
             ],
         }  # fmt: skip

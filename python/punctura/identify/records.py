@@ -48,8 +48,8 @@ class ModelRecord(TypedDict):
     rmse_N: float
     parameters: int  # their number
     membranes: int
-    AICc: float | None  # None: more parameters than independent samples
-    BIC: float
+    aicc: float | None  # None: more parameters than independent samples
+    bic: float
     held_out_rmse_N: float | None
 
 
@@ -88,13 +88,13 @@ class ExplainedRecord(TypedDict):
 class IdentificationRecord(TypedDict):
     """A whole identification."""
 
-    source: str
+    trace: str
     samples: int
     effective_samples: float
     membranes: int
     extensions: list[str]
     rmse_N: float
-    rmse_of_peak: float
+    rmse_share_of_peak: float
     held_out_rmse_N: float | None
     needle: NeedleRecord
     parameters: list[ParameterRecord]
@@ -102,7 +102,7 @@ class IdentificationRecord(TypedDict):
     rig: list[RigRecord]
     findings: list[FindingRecord]
     explained: ExplainedRecord
-    not_told: list[str]
+    verdicts: list[str]
     models: list[ModelRecord]
 
 
@@ -130,7 +130,7 @@ class FailedRecord(TypedDict):
     task: TaskRecord
     stamp: list[int]
     error: str
-    source: str
+    trace: str
     parameters: list[ParameterRecord]  # empty
 
 

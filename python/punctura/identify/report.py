@@ -29,8 +29,8 @@ def report_html(found: Identification) -> bytes:
     doubts = "".join(f"<li>{escape(text)}</li>" for text in found.verdicts) or "<li>nothing: all is identifiable</li>"
     head = (
         f"{told['membranes']} membrane(s), {', '.join(told['extensions']) or 'K06 without extensions'}; rms error "
-        f"{told['rmse_N']:.3g} N, {100 * told['rmse_of_peak']:.2g} % of the greatest force; {told['samples']} samples, "
-        f"as many as {told['effective_samples']:.0f} independent ones"
+        f"{told['rmse_N']:.3g} N, {100 * told['rmse_share_of_peak']:.2g} % of the greatest force; "
+        f"{told['samples']} samples, as many as {told['effective_samples']:.0f} independent ones"
     )
     page = (
         f"<!doctype html><html lang=en><meta charset=utf-8><title>Identification</title><style>{_STYLE}</style>"
@@ -60,10 +60,10 @@ def _models(told: IdentificationRecord) -> str:
     rows = []
     for m in told["models"]:
         held_out = "-" if m["held_out_rmse_N"] is None else f"{m['held_out_rmse_N']:.3g}"
-        aicc = "-" if m["AICc"] is None else f"{m['AICc']:.0f}"
+        aicc = "-" if m["aicc"] is None else f"{m['aicc']:.0f}"
         name = " + ".join(m["extensions"]) or "K06"
         rows.append(f"<tr><td>{escape(name)}<td>{m['membranes']}<td>{m['parameters']}<td>{m['rmse_N']:.3g}"
-                    f"<td>{held_out}<td>{aicc}<td>{m['BIC']:.0f}")  # fmt: skip
+                    f"<td>{held_out}<td>{aicc}<td>{m['bic']:.0f}")  # fmt: skip
     head = "<tr><th>model<th>membranes<th>parameters<th>rms, N<th>held out, N<th>AICc<th>BIC"
     return (
         f"<table>{head}{''.join(rows)}</table><p>The first one was chosen. The criteria count independent samples.</p>"

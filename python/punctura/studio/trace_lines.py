@@ -90,7 +90,7 @@ def fit_line(found: Identification) -> FitLine:
             )
             for one in found.estimates
         ],
-        not_told=list(found.verdicts),
+        verdicts=list(found.verdicts),
         tried=[
             TriedPart(
                 membranes=one.model.membranes,

@@ -138,7 +138,7 @@ def test_the_command_names_it_and_draws_it(punctura, tmp_path):
                     "--report", tmp_path / "a.html")  # fmt: skip
     told = json.loads(done.stdout)
     assert told["explained"]["causes"][0]["kind"] == "barbs"
-    assert any("The way out is asymmetric" in text for text in told["not_told"])
+    assert any("The way out is asymmetric" in text for text in told["verdicts"])
     assert "The way out is asymmetric" in (tmp_path / "a.html").read_text()
 
 

@@ -133,7 +133,7 @@ def test_names_that_are_long_or_no_text_are_files_as_others(tmp_path, monkeypatc
     monkeypatch.setattr(
         folder_module,
         "_computed",
-        lambda paths, task, processes: ((path, told | {"source": str(path)}, False) for path in paths),
+        lambda paths, task, processes: ((path, told | {"trace": str(path)}, False) for path in paths),
     )
     for _ in range(2):
         assert identify_folder(folder, tmp_path / "out", Task(NEEDLE))["identified"] == 2

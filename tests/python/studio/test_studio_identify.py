@@ -68,7 +68,7 @@ def test_a_trace_is_identified_while_the_run_goes_on_and_its_scene_can_be_felt(s
     assert {len(curve) for curve in fit["curves"].values()} == {trace_line["samples"]}
     [friction] = [one for one in fit["estimates"] if one["name"] == "membrane[0].friction"]
     assert friction["low"] < 0.2 < friction["high"] and friction["identifiable"]
-    assert any("second time" in words for words in fit["not_told"])
+    assert any("second time" in words for words in fit["verdicts"])
     rows = told["rivals"]["rows"]
     assert rows[0]["own"] and len(rows) >= 10
     assert {len(row["force"]) for row in rows} == {trace_line["samples"]}

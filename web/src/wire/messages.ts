@@ -656,7 +656,7 @@ export interface FitLine {
   effective_samples: number;
   curves: CurvesPart;
   estimates: EstimatePart[];
-  not_told: string[];
+  verdicts: string[];
   tried: TriedPart[];
   scene: string;
   no_scene: string;

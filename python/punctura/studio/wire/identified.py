@@ -115,7 +115,7 @@ class FitLine(Part):
     effective_samples: Finite  # as many independent samples tell as much
     curves: CurvesPart
     estimates: list[EstimatePart]
-    not_told: list[str]  # what the trace cannot tell, and which experiment would
+    verdicts: list[str]  # what the trace cannot tell, and which experiment would
     tried: list[TriedPart]  # the chosen one first
     scene: str  # the text of a scene file; empty if there is none
     no_scene: str  # why there is none

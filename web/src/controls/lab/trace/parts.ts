@@ -32,7 +32,7 @@ export function fitParts(fit: FitLine): HTMLElement[] {
     ),
     section(
       "What the trace cannot tell",
-      fit.not_told.length ? list(fit.not_told.map(doubtWords)) : element("p", {}, "Nothing: all is identifiable."),
+      fit.verdicts.length ? list(fit.verdicts.map(doubtWords)) : element("p", {}, "Nothing: all is identifiable."),
     ),
     element("details", {}, element("summary", {}, "Extensions that were tried"), triedTable(fit.tried)),
   ];
