@@ -122,8 +122,15 @@ def hangs(monkeypatch, tmp_path):
 
 def ended(mark):
     """Whether the worker and its child have ended; one that nobody waits for counts as ended."""
-    states = [Path(f"/proc/{number}/stat") for number in mark.read_text().split()]
-    return all(not state.exists() or state.read_text().rsplit(")")[1].split()[0] == "Z" for state in states)
+    return all(_state(number) in ("", "Z") for number in mark.read_text().split())
+
+
+def _state(number):
+    """The letter of a process's state; empty if it has ended, also while it is read."""
+    try:
+        return Path(f"/proc/{number}/stat").read_text().rsplit(")")[1].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
 
 
 @pytest.mark.parametrize("address", ["compare", "bundle"])
