@@ -27,11 +27,10 @@ from punctura.studio.computing import Download, LabError, Line, json_of
 from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
-from punctura.studio.recorded import overview, tick_frames
+from punctura.studio.recorded import FEWEST, MOST, USUAL, overview, thinned_trace, tick_frames
 from punctura.studio.security import TooLarge
 from punctura.studio.session import Session
 from punctura.studio.shelf import SUFFIX, Busy, Missing
-from punctura.studio.trace import FEWEST, MOST, USUAL, thinned_trace
 from punctura.studio.traces import FILE, IDENTIFY, Late, Traces
 
 FORMATS = {"parquet": "application/vnd.apache.parquet", "csv": "text/csv; charset=utf-8", "mcap": "application/x-mcap"}

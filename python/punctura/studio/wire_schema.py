@@ -12,9 +12,8 @@ from punctura.compare.worker import LabLine
 from punctura.exercise import Result
 from punctura.studio.catalog import ExerciseOverview, SceneOutline
 from punctura.studio.lab import SceneField
-from punctura.studio.recorded import RecordingOverview
+from punctura.studio.recorded import RecordingOverview, RecordingTrace
 from punctura.studio.shelf import RecordingEntry
-from punctura.studio.trace import RecordingTrace
 from punctura.studio.wire.identified import IdentifyLine
 from punctura.studio.wire.messages import Message
 from punctura.studio.wire.requests import Request

@@ -11,8 +11,8 @@ from punctura.events import find_events
 from punctura.events.recorded import recorded_ticks
 from punctura.exercise import load_exercise, score
 from punctura.record import open_recording
-from punctura.studio import trace
-from punctura.studio.trace import MOST, thinned_trace
+from punctura.studio import recorded as trace
+from punctura.studio.recorded import MOST, thinned_trace
 from recorded import recorded
 
 SECONDS = 39  # 62,400 ticks: all fit into the ring, however late its reader is
