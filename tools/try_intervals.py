@@ -2,7 +2,7 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
-        [--delay 0] [--walls 1] [--apart 0.5] [--workers 1] [--seed 1]
+        [--delay 0] [--tolerance 0] [--walls 1] [--apart 0.5] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -11,8 +11,10 @@ samples, Hz; at 40 Hz the needle goes some 0.2 mm from sample to sample. --early
 so that it cannot tell some parameters. --machine: the needle moves at one speed, not by a hand at a device,
 whose encoder has counts. --inward: the trace ends at its greatest depth. --walk: the standard deviation,
 N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
-multiples of these, m and N. --lag, --delay: of the force sensor, s. --walls: with 2, the second surface lies --apart
-tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often it is right.
+multiples of these, m and N. --lag, --delay: of the force sensor, s. --tolerance: the true diameter of the needle is
+within this share of the stated one, in 95 of 100 traces, and identify is told so. --walls: with 2, the second surface
+lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
+it is right.
 
 An interval of 95 % should hold the truth in 93 to 97 % of the cases. "hidden": even an ideal interval is too wide to
 tell the parameter. First, the Fisher information at the truth says that it spans a factor of 100 or more. Second, the
@@ -34,7 +36,7 @@ from functools import partial
 import numpy as np
 import punctura as pn
 from numpy.typing import NDArray
-from punctura.identify import Parameters, identify
+from punctura.identify import Parameters, Rig, identify
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.parameters import default_coupling, default_membrane
 from punctura.identify.plan import information
@@ -56,6 +58,7 @@ HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
+    "--tolerance": "of the diameter",
 }  # fmt: skip
 
 
@@ -76,6 +79,7 @@ class Conditions:
     force_step: float = 0.0
     lag: float = 0.0
     delay: float = 0.0
+    tolerance: float = 0.0
     walls: int = 1
     apart: float = 0.5
 
@@ -196,7 +200,10 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     trace, needle, truth = random_trace(seed, given)
     if given.early:
         trace = until_half(trace, truth, needle)
-    found = identify(trace, needle, membranes=1 if given.walls == 1 else "auto")
+    share = given.tolerance * np.random.default_rng(10**6 + seed).normal() / 1.96
+    stated = pn.Needle(needle.diameter * (1 + share), needle.tip_angle)
+    known = Rig(diameter_tolerance=given.tolerance * needle.diameter)
+    found = identify(trace, stated, membranes=1 if given.walls == 1 else "auto", rig=known)
     true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0)).with_values(truth)
     names = [*truth, "offset"]
     assert trace.time is not None
