@@ -96,15 +96,35 @@ def _from_recording(recording: Recording) -> Trace:
     for batch in recording.batches():
         ticks = ticks_of(batch)
         first = ticks.position[0] if first is None else first
-        axis = ticks.axis / np.linalg.norm(ticks.axis, axis=1, keepdims=True)
-        depth = np.sum((ticks.position - first) * axis, axis=1)
-        parts.append(np.column_stack((depth, -np.sum(ticks.force * axis, axis=1), ticks.time)))
+        depth, force = _along_axis(ticks.position - first, ticks.axis, ticks.force)
+        parts.append(np.column_stack((depth, force, ticks.time)))
     depth, force, time = np.concatenate(parts).T
     return Trace(depth, force, time, str(path))
 
 
+def _along_axis(way: Array, axis: Array, force: Array) -> tuple[Array, Array]:
+    """Depth, m, and force against the insertion, N, along the needle, from vectors (n, 3)."""
+    axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
+    return np.sum(way * axis, axis=1), -np.sum(force * axis, axis=1)
+
+
+_EXPORTED = ("x_m", "y_m", "z_m", "axis_x", "axis_y", "axis_z", "fx_N", "fy_N", "fz_N")
+
+
+def _as_recorded(table: Table) -> Table:
+    """The table; that of an exported recording with the depth and the force of the recording."""
+    if not all(name in table for name in ("tick", "time_s", *_EXPORTED)):
+        return table
+    position, axis, force = np.column_stack([table[name] for name in _EXPORTED]).reshape(-1, 3, 3).swapaxes(0, 1)
+    depth, along = _along_axis(position - position[0], axis, force)
+    own = Table({"time_s": table["time_s"], "depth_m": depth, "force_N": along})
+    own.findings = table.findings
+    return own
+
+
 def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     named = {role: name for role, name in reading.columns.items() if role != "depth" or "depth" in reading.needed}
+    table = table if named else _as_recorded(table)
     held, found = choose_columns(table, named, reading.units, source, reading.needed)
     found[:0] = table.findings
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)

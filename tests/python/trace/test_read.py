@@ -9,6 +9,8 @@ import scipy.io
 from openpyxl import Workbook
 from punctura.cli._trace import needle_of
 from punctura.live import SimulatedDevice
+from punctura.record import open_recording
+from punctura.record.save_as import export_pieces
 from punctura.simulation import Strokes
 from punctura.trace import TraceError, read_trace
 from recorded import recorded
@@ -71,6 +73,10 @@ def test_a_recording_is_a_trace_along_the_needle(tmp_path):
     assert np.ptp(read.depth) == pytest.approx(0.025, rel=0.1)
     assert read.force.max() > 0.5 and kinds(read) <= {"no_contact"}
     assert needle_of("", tmp_path / "run.parquet") == scene.needle  # so that nobody must state it
+    (tmp_path / "run.csv").write_bytes(b"".join(export_pieces(open_recording(tmp_path / "run.parquet"), "csv")))
+    exported = read_trace(tmp_path / "run.csv")
+    for role in ("depth", "force", "time"):
+        assert getattr(exported, role) == pytest.approx(getattr(read, role), rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", ["Depth (mm)", "depth [mm]", "Displacement_mm", "position/mm", "INSERTION DEPTH mm"])
