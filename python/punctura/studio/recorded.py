@@ -27,6 +27,9 @@ from punctura.studio.wire.messages import MembraneEvent
 from punctura.ticks import ABSENT, INSIDE, Columns, Ticks
 
 MOTION_HZ = 250.0  # sampling rate of a recorded motion for the hand; Target smooths between the samples
+FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer; MOST rows are below 100 kB
+EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and force
+MOST_EVENTS = 40  # events at which a bucket ends, so that rows between two events are kept
 Array = npt.NDArray[np.float64]
 
 
@@ -137,12 +140,6 @@ def motion_of(recording: Recording) -> tuple[Array, Array, Array]:
         raise ValueError("the recording has no motion")
     time, tip, axis = time[good], tip[good], axis[good]
     return time - time[0], tip, axis
-
-
-FEWEST, MOST, USUAL = 60, 3000, 2400  # rows of an answer; MOST rows are below 100 kB
-EACH = 6  # rows that a bucket keeps at most: first, last, and the extremes of depth and force
-MOST_EVENTS = 40  # events at which a bucket ends, so that rows between two events are kept
-Array = npt.NDArray[np.float64]
 
 
 class RecordingTrace(Part):
