@@ -69,7 +69,8 @@ def _units(trace: Trace) -> Iterator[Finding]:
         elif not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
-            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}"
+            other = ", or this is another test than the insertion of a needle" if value > most else ""
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}{other}"
             yield Finding("wrong_unit", f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
 
 
