@@ -194,7 +194,9 @@ use_it() {
 # The instructions of a tick, counted by valgrind, are not more than the stored ones.
 step_instructions() { python benchmarks/instructions.py --check; }
 
-step_python() {
+# A quarter of the random cases; the step `statistics` draws all of them.
+step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/4}" python_tests -n 4 --dist loadgroup; }
+python_tests() {
   local but=()
   if ! has_siconos; then
     if known python3-siconos; then
@@ -206,7 +208,7 @@ step_python() {
     local file=tests/python/proxy/test_relay_siconos.py
     but=(--deselect "$file"::test_the_force_of_33_is_the_force_that_siconos_finds_for_the_same_relay)
   fi
-  python -m pytest -n 4 --dist loadgroup --durations=15 ${but[@]+"${but[@]}"}
+  python -m pytest --durations=15 "$@" ${but[@]+"${but[@]}"}
 }
 
 # The studio's page: types, lint, unused exports, tests, message types in agreement with the server, and size.
@@ -279,8 +281,12 @@ examples_python() {
 # Slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
 
-# Statistical checks with many seeds, which are too slow for every run.
-step_statistics() { python -m pytest -n 2 --durations=15 -m statistics; }
+# What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases.
+step_statistics() {
+  local drawing
+  drawing=$(git grep -lE 'cases\.(batches|count|asked)|@given' -- 'tests/python/*/test_*.py') &&
+    python_tests -n 2 $drawing && python -m pytest -n 2 --durations=15 -m statistics
+}
 
 # Each environment that Punctura plugs into, with its own tool chain: integrations/README.md.
 step_integrations() {

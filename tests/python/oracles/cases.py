@@ -2,6 +2,7 @@
 
 PUNCTURA_CASES=1000000 pytest tests/python        takes hours
 PUNCTURA_CASES=20 pytest tests/python             a quick check
+PUNCTURA_CASES=1/4 pytest tests/python            a quarter of each test's own number, as ./test does
 
 The comparisons with the oracles go on batch by batch to any number; a test that holds all its cases at once stops
 at MOST.
@@ -9,13 +10,15 @@ at MOST.
 
 import os
 from collections.abc import Iterator
+from fractions import Fraction
 
 MOST = 2000
 
 
 def asked(usual: int) -> int:
-    """PUNCTURA_CASES, or the usual number."""
-    return int(os.environ.get("PUNCTURA_CASES", usual))
+    """PUNCTURA_CASES, a part of the usual number if that is below one, or the usual number."""
+    wanted = Fraction(os.environ.get("PUNCTURA_CASES", usual))
+    return int(wanted if wanted >= 1 else wanted * usual)
 
 
 def count(usual: int) -> int:
