@@ -39,7 +39,7 @@ class SceneText {
   }
 
   /// What makes the text too large to read it: toml++ would need a long time for it, or more stack than there is. ""
-  /// if nothing does. The limits are those of python/punctura/files/toml_bounds.py.
+  /// if nothing does. The limits are those of python/punctura/files/toml.py.
   std::string excess() const {
     constexpr std::size_t most_bytes = 256 * 1024, most_nested = 16, most_dots = 16;
     if (text_.size() > most_bytes)

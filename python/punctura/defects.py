@@ -18,8 +18,8 @@ from types import TracebackType
 
 from punctura import __version__
 from punctura.errors import sentence_of
-from punctura.files.private import private, private_folder
-from punctura.files.user_folder import user_folder
+from punctura.files.names import user_folder
+from punctura.files.whole_file import private, private_folder
 
 DEBUG = "PUNCTURA_DEBUG"  # 1: every traceback is printed on the terminal, too
 PATIENCE_S = 10.0  # for the log and the terminal, of a program that ends

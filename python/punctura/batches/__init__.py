@@ -2,7 +2,7 @@
 
 from punctura._core import LineBatch
 from punctura.batches.batch import batch
-from punctura.batches.grid import grid
+from punctura.batches.inputs import grid
 from punctura.batches.result import BatchResult
 
 __all__ = ["BatchResult", "LineBatch", "batch", "grid"]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-from punctura.files.target import target_problems
+from punctura.files.whole_file import target_problems
 
 
 def check_apart(files: Mapping[str, Path | None]) -> None:

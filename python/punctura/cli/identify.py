@@ -80,7 +80,7 @@ def command(
     from punctura.identify.report import report_html
     from punctura.identify.rig import UNKNOWN
     from punctura.identify.specimens import write_specimens
-    from punctura.scene.write import scene_text
+    from punctura.scene.build import scene_text
     from punctura.trace.bags import is_bag
 
     count = number_of(membranes)

@@ -8,7 +8,7 @@ import numpy as np
 
 from punctura import Scene
 from punctura.compare.run import MOST_TICKS, Array
-from punctura.events.recorded import recorded_ticks
+from punctura.events.finder import recorded_ticks
 from punctura.live import stroke_ends
 from punctura.record import Recording
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from punctura import Scene, Ticks
 from punctura.events import Event, EventFinder
-from punctura.events.recorded import recorded_ticks
+from punctura.events.finder import recorded_ticks
 from punctura.record import Recording, open_recording
 
 Array = npt.NDArray[np.float64]

@@ -1,8 +1,5 @@
 """Events at the membranes: touch, pop and exit of the tip (docs/events.md)."""
 
-from punctura.events.crossing import Crossing, crossing
-from punctura.events.event import Event
-from punctura.events.find import find_events
-from punctura.events.finder import EventFinder
+from punctura.events.finder import Crossing, Event, EventFinder, crossing, find_events
 
 __all__ = ["Crossing", "Event", "EventFinder", "crossing", "find_events"]

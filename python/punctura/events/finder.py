@@ -1,15 +1,57 @@
-"""Finds the events of a run, batch by batch."""
+"""Finds the events of a run at its membranes, batch by batch or all at once."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
+import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
 
 from punctura import Scene, _core
-from punctura.events.event import Event
 from punctura.ticks import Ticks
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+    from punctura.record import Recording
+
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Event(BaseModel):
+    """An event, in SI units. Forces are the model's, along the needle, before safety limits. Only a pop has forces."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    what: Literal["touch", "pop", "out"]  # tip enters; slanted face is through; tip has left
+    membrane: int  # index in the scene, from 0
+    name: str
+    tick: int
+    time: Finite  # s, of the tick
+    depth: Finite  # m: along the needle while inside, else along the normal
+    force_before: Finite = 0.0  # N, largest resistance before the pop
+    force_after: Finite = 0.0  # N, resistance of the shaft alone after the pop
+    drop: Finite = 0.0  # N, force_before - force_after
+
+
+class Crossing(NamedTuple):
+    """The steps of a needle through a membrane, as depths of the tip behind the surface along the needle, m."""
+
+    cos_beta: float  # n.b, with b the needle's direction at entry
+    far_face: float  # the point of the tip leaves the far face: U
+    peak: float  # the resistance -Phi_I is largest
+    through: float  # the whole slanted face has left the far face; from here only the shaft has friction: X + U
+    again: float  # a tip that is pulled back to this depth can pop again
+    shaft: float  # N, friction of the shaft alone: F / n.b
+
+
+def crossing(scene: Scene, membrane: int, cos_beta: float) -> Crossing:
+    """The crossing of one membrane of a scene, by its index, for a needle with n.b = cos_beta. Raises IndexError."""
+    return Crossing(*_core.crossing(scene, membrane, cos_beta))
 
 
 class EventFinder:
@@ -35,3 +77,47 @@ class EventFinder:
     def add(self, columns: Ticks | dict[str, NDArray[Any]]) -> list[Event]:
         """The events of the next ticks."""
         return [Event(**found) for found in self._finder.add(columns)]
+
+
+def recorded_ticks(recording: Recording) -> Iterator[tuple[Ticks, Scene | None]]:
+    """Yields all ticks in order. The scene is set after a scene change, else None."""
+    # A recording is there, so what reads it is loaded. Events of Ticks need none of it.
+    from punctura.record.columns import NEW_SCENES, ticks_of
+    from punctura.record.header import from_text
+
+    def new_scenes(batch: pa.RecordBatch) -> list[tuple[int, list[str]]]:
+        if NEW_SCENES not in batch.schema.names:
+            return []
+        column = batch.column(NEW_SCENES)
+        rows = np.flatnonzero(np.asarray(column.is_valid()))
+        return [(int(row), texts) for row in rows if (texts := column[int(row)].as_py())]
+
+    for batch in recording.batches():
+        start = 0
+        for row, texts in new_scenes(batch):
+            if row > start:
+                yield ticks_of(batch.slice(start, row - start)), None
+            end = next((later for later, _ in new_scenes(batch) if later > row), len(batch))
+            yield ticks_of(batch.slice(row, end - row)), from_text(texts[-1], recording.path)
+            start = end
+        if start < len(batch):
+            yield ticks_of(batch.slice(start)), None
+
+
+def find_events(recording: Recording | Ticks, scene: Scene | None = None) -> list[Event]:
+    """All events of a recording or of Ticks. scene: replaces the recorded scene; Ticks need one.
+
+    Raises RecordingError, TypeError for Ticks without a scene.
+    """
+    if isinstance(recording, Ticks):
+        if scene is None:
+            raise TypeError("find_events of Ticks needs the scene of the run: find_events(ticks, scene)")
+        return EventFinder(scene).add(recording)
+    first = scene or recording.info.scene
+    finder = EventFinder(first, first.servo.rate)
+    events: list[Event] = []
+    for ticks, new_scene in recorded_ticks(recording):
+        if new_scene is not None:
+            finder.change(new_scene)
+        events += finder.add(ticks)
+    return events

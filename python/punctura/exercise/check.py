@@ -21,8 +21,7 @@ from punctura.exercise.fields import FARTHEST_START_MM, LEAST_MM, Space, Start, 
 from punctura.exercise.goals import GOALS, Given
 from punctura.exercise.problems import located, problem
 from punctura.exercise.schema import ExerciseFile
-from punctura.files.tables import Location
-from punctura.files.toml import Tables
+from punctura.files.toml import Location, Tables
 
 
 class Sound(NamedTuple):

@@ -9,7 +9,8 @@ from punctura.errors import MISSING, Problem
 from punctura.exercise.fields import Space, Start
 from punctura.exercise.goals import GOALS
 from punctura.exercise.schema import ExerciseFile
-from punctura.files.tables import Location, missing, path_of, shown, unknown_key
+from punctura.files.tables import missing, path_of, shown, unknown_key
+from punctura.files.toml import Location
 from punctura.files.units import split_key
 
 _TABLES: dict[str, type[BaseModel]] = {"start": Start, "space": Space}

@@ -14,9 +14,8 @@ from pydantic import ValidationError
 from punctura._core import PuncturaError
 from punctura.exercise.result import Result
 from punctura.files.cells import csv_line, text_cell
-from punctura.files.private import private_folder
-from punctura.files.user_folder import user_folder
-from punctura.files.whole_file import write_whole
+from punctura.files.names import user_folder
+from punctura.files.whole_file import private_folder, write_whole
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,119}")
 _LARGEST = 20_000_000  # bytes; a result has some kilobytes

@@ -17,7 +17,7 @@ from punctura.extras import optional
 def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: str = "") -> Result:
     """The result that the recorded attempt has in the studio. Raises RecordingError, ConfigurationError."""
     optional("pyarrow", "files", "the score of a recording")
-    from punctura.events.recorded import recorded_ticks
+    from punctura.events.finder import recorded_ticks
     from punctura.record import open_recording
 
     opened = open_recording(recording)

@@ -1,10 +1,12 @@
-"""Names of files as text."""
+"""Names of files as text, and the folder of the user's files."""
 
 from __future__ import annotations
 
 import os
 import re
+import sys
 from pathlib import Path
+from typing import Literal
 
 # The endings of trace files in a folder and in the studio; any other file is read as text if it is named alone.
 TRACE_ENDINGS = (
@@ -24,3 +26,13 @@ def traces_in(folder: str | os.PathLike[str]) -> list[Path]:
     if not paths:
         raise ValueError(f"{folder}: holds no trace ({', '.join(TRACE_ENDINGS)})")
     return paths
+
+
+def user_folder(kind: Literal["data", "state"]) -> Path:
+    """Punctura's folder of this user. state: what may be lost, such as a log."""
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local") / "punctura"
+    if sys.platform == "darwin":
+        return Path.home() / "Library/Application Support/punctura"
+    usual = {"data": ".local/share", "state": ".local/state"}[kind]  # XDG Base Directory Specification
+    return Path(os.environ.get(f"XDG_{kind.upper()}_HOME", "").strip() or Path.home() / usual) / "punctura"

@@ -12,9 +12,8 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from punctura.errors import MISSING, Problem
+from punctura.files.toml import Location
 from punctura.files.units import split_key
-
-Location = tuple[int | str, ...]  # place of a value in the file: ("membrane", 1, "friction")
 
 
 class Table(BaseModel):

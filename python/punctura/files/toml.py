@@ -8,10 +8,9 @@ import sys
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.toml_bounds import MOST_BYTES, excess
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -19,6 +18,53 @@ else:
     import tomli as tomllib
 
 Tables: TypeAlias = dict[str, object]  # tables of a TOML file
+Location: TypeAlias = tuple[int | str, ...]  # place of a value in the file: ("membrane", 1, "friction")
+
+MOST_BYTES = 256 * 1024  # a scene of 64 membranes takes a tenth of it
+_MOST_NESTED = 16  # nested lists and tables; a scene has three levels
+_MOST_DOTS = 16  # in one key; a scene needs one
+_LONGEST_WORD = 1000  # characters of a number or an unquoted key
+
+# A string without an end quote counts up to the end of the file, so that no character is scanned twice.
+TOKEN = re.compile(
+    r'''"""(?:[^\\]|\\.)*?(?:"{3,5}|\\?\Z)'''
+    r"""|\'\'\'.*?(?:'{3,5}|\Z)"""
+    r"""|"(?:[^"\\\n]|\\.)*"?|'[^'\n]*'?"""
+    r"""|\#[^\n]*|[\w-]+|[\[\]{}.=,\n]""",
+    re.DOTALL,
+)
+
+
+class Excess(NamedTuple):
+    """The first place that exceeds a limit: the line and the reason."""
+
+    line: int
+    reason: str
+
+
+def excess(text: str) -> Excess | None:
+    """The first place of a text that exceeds a limit, None if there is none. The text need not be valid TOML."""
+    line, nested, dots = 1, 0, 0
+    for found in TOKEN.finditer(text):
+        token = found[0]
+        first = token[0]
+        if first in "\"'":
+            line += token.count("\n")
+        elif first in "[{":
+            nested, dots = nested + 1, 0
+        elif first in "]}":
+            nested = max(0, nested - 1)
+        elif first in "=,\n":
+            line, dots = line + (first == "\n"), 0
+        elif first == ".":
+            dots += 1
+        elif first != "#" and len(token) > _LONGEST_WORD:
+            return Excess(line, f"a number or a key has {len(token)} characters; the limit is {_LONGEST_WORD}")
+        if nested > _MOST_NESTED:
+            return Excess(line, f"lists and tables are nested more than {_MOST_NESTED} deep")
+        if dots > _MOST_DOTS:
+            return Excess(line, f"a key has more than {_MOST_DOTS} dots")
+    return None
 
 
 def _error(path: Path, reason: str, where: str = "") -> ConfigurationError:
@@ -88,3 +134,49 @@ def parse_toml(text: str, path: Path, parse_float: Callable[[str], object] | Non
         if where == "end of document":
             where = f"line {text.count(chr(10)) + 1}, at the end of the file"
         raise _error(path, f"is not TOML: {message[: found.start()] if found else message}", where) from None
+
+
+def key_lines(text: str) -> dict[Location, int]:
+    """The line of each key and each table head of a valid TOML text, by its place, as ("membrane", 1, "friction").
+
+    Keys inside inline tables are not among them.
+    """
+    lines: dict[Location, int] = {}
+    counts: dict[Location, int] = {}  # tables of each list
+    table: Location = ()
+    line, nested, brackets, in_value = 1, 0, 0, False
+    names: list[str] = []
+    for found in TOKEN.finditer(text):
+        token = found[0]
+        if token == "\n":
+            if nested == 0:
+                if brackets:
+                    table = _place(names, counts, brackets == 2)
+                    lines.setdefault(table, line)
+                names, brackets, in_value = [], 0, False
+            line += 1
+        elif token[0] == "#":
+            continue
+        elif in_value:
+            nested += (token in "[{") - (token in "]}")
+            line += token.count("\n")
+        elif token == "[":
+            brackets += 1
+        elif token == "=":
+            lines.setdefault((*table, *names), line)
+            in_value = True
+        elif token not in "].,":
+            names.append(token[1:-1] if token[0] in "\"'" else token)
+    return lines
+
+
+def _place(names: list[str], counts: dict[Location, int], in_list: bool) -> Location:
+    """The place of a table head, with the number of the last table in each list on the way."""
+    place: Location = ()
+    for i, name in enumerate(names):
+        place = (*place, name)
+        if in_list and i == len(names) - 1:
+            counts[place] = counts.get(place, 0) + 1
+        if place in counts:
+            place = (*place, counts[place] - 1)
+    return place

@@ -1,7 +1,4 @@
-"""Writes a file under a temporary name and renames it when it is complete and on the disk.
-
-After any error, such as a full disk, no temporary file remains, and an existing file at the path is unchanged.
-"""
+"""Writes files: checks the path first, and a file appears only when it is complete."""
 
 from __future__ import annotations
 
@@ -9,13 +6,41 @@ import errno
 import os
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from punctura.files.private import MODE
-
+MODE = 0o600  # of files with data of a person: their owner alone can read them, whatever the folder and the umask
 _NO_UNNAMED = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL)
+
+
+def private(path: str, flags: int) -> int:
+    """An `opener` for `open`: a new file is private from its first moment."""
+    return os.open(path, flags, MODE)
+
+
+def private_folder(path: Path) -> None:
+    """Makes a folder and those above it. An existing one stays as it is: its owner may have shared it on purpose."""
+    path.mkdir(0o700, parents=True, exist_ok=True)
+
+
+def target_problems(target: Path, suffixes: Sequence[str] = ()) -> list[str]:
+    """Why no file can be written at this path. suffixes: those that it may have; default: any."""
+    problems = []
+    if suffixes and target.suffix.lower() not in suffixes:
+        problems.append(f"must end in {' or '.join(suffixes)}")
+    if target.is_dir():
+        problems.append("is a folder; name a file")
+    elif not target.parent.is_dir():
+        problems.append(f"there is no folder {target.parent}; make it first")
+    elif not os.access(target.parent, os.W_OK):
+        problems.append("its folder may not be written; choose another")
+    return problems
+
+
+def same_file(one: Path, other: Path) -> bool:
+    """Whether both exist and are one file."""
+    return one.exists() and other.exists() and one.samefile(other)
 
 
 @contextmanager

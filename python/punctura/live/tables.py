@@ -11,8 +11,8 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from punctura.errors import ConfigurationError, Problem
-from punctura.files.tables import Location, Schema, Table, shown
-from punctura.files.toml import read_tables
+from punctura.files.tables import Schema, Table, shown
+from punctura.files.toml import Location, read_tables
 from punctura.files.units import split_key, to_si
 
 T = TypeVar("T", bound=Table)

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from punctura.record.description import RecordingError
 from punctura.ticks import ABSENT, FIELDS, Ticks
 from punctura.ticks.arrow import WORD, arrays, number_type, with_words, words_of
-from punctura.ticks.fields import file_column, file_columns
-from punctura.ticks.flat import flatten, gather
+from punctura.ticks.fields import file_column, file_columns, flatten, gather
 
 LOST = "lost"  # number of ticks missing between the previous row and this one
 NEW_SCENES = "new_scenes"  # the scenes taken before this tick's step, as TOML; null if none

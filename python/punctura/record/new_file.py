@@ -13,8 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
-from punctura.files.private import MODE
-from punctura.files.whole_file import give_name, rename_new, unnamed_file
+from punctura.files.whole_file import MODE, give_name, rename_new, unnamed_file
 from punctura.record.description import RecordingError
 from punctura.record.part_file import PartFile
 

@@ -30,7 +30,7 @@ from punctura.record.parquet_file import parquet_output
 from punctura.record.recording import Recording, open_recording
 from punctura.record.save_as import check_target
 from punctura.ticks import ABSENT, COMMAND_SCENE, Columns, Ticks
-from punctura.ticks.flat import flatten
+from punctura.ticks.fields import flatten
 
 
 class Difference(TypedDict):

@@ -12,8 +12,7 @@ from typing import Any
 import pyarrow as pa
 
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.target import same_file, target_problems
-from punctura.files.whole_file import whole_file
+from punctura.files.whole_file import same_file, target_problems, whole_file
 from punctura.progress import Report
 from punctura.record.collected import Collected
 from punctura.record.columns import NEW_SCENES, in_pieces

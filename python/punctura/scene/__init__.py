@@ -1,9 +1,9 @@
 """Reads, checks and writes scene files; holds the ready scenes of the package (docs/scene-file.md)."""
 
 from punctura._core import DisplaySettings, SceneField, ServoSettings
-from punctura.scene.json_schema import scene_json_schema
+from punctura.scene.build import save_scene, scene_text
 from punctura.scene.ready import load_scene, scene_names, scene_path
-from punctura.scene.write import save_scene, scene_text
+from punctura.scene.schema import scene_json_schema
 
 __all__ = [
     "DisplaySettings",

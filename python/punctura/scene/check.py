@@ -1,7 +1,7 @@
 """Finds all problems of a scene file's tables, in the file's own keys and units.
 
 The schema finds wrong types, the core finds wrong values, in one pass: what the schema has refused is not given to the
-core, which checks the others.
+core, which checks the others. It also warns of numbers that are possible, but probably in another unit.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from punctura import _core
 from punctura._core import gauge_diameters
 from punctura.errors import MISSING, Problem
-from punctura.files.tables import Location, Schema, location_of, shown
-from punctura.files.toml import Tables
+from punctura.files.tables import Schema, location_of, shown
+from punctura.files.toml import Location, Tables, key_lines
 from punctura.files.units import split_key, to_si
 from punctura.scene.build import Parts
 from punctura.scene.schema import ALTERNATIVES, KEYS, MODELS, ROWS, SceneFile
@@ -150,3 +151,33 @@ class _Order:
                 place.append(part)
                 here = here[part] if part < len(here) else None
         return tuple(place)
+
+
+class UnusualWarning(UserWarning):
+    """A number of a scene file is probably in another unit."""
+
+
+def unusual_numbers(scene_file: SceneFile, text: str = "", source: str = "") -> tuple[str, ...]:
+    """A sentence for each such number, with the remedy; with its line if the text of the file is given."""
+    data = scene_file.model_dump(mode="python", exclude_none=True)
+    lines = key_lines(text)
+    return tuple(_sentences(data, lines, f"{source}, " if source else ""))
+
+
+def _sentences(data: Mapping[str, object], lines: Mapping[Location, int], source: str) -> Iterator[str]:
+    for path, key_path in Parts(data).keys.items():
+        if "." not in path:
+            continue
+        table, *numbers, key = location_of(key_path)
+        owner = data[str(table)]
+        if numbers and isinstance(owner, list) and isinstance(numbers[0], int):
+            owner = owner[numbers[0]]
+        written = owner.get(key) if isinstance(owner, dict) else None
+        if not isinstance(written, Decimal):
+            continue
+        advice = _core.unusual(path, float(written), float(split_key(str(key))[1].si))
+        if advice:
+            line = lines.get(location_of(key_path))
+            head = f"[[{table}]]" if numbers else f"[{table}]"
+            where = f"line {line}: {head} {key}" if line else key_path
+            yield f"{source}{where} = {written} is unusual. {advice}"

@@ -10,8 +10,7 @@ from punctura._core import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import parse_toml, read_text
 from punctura.scene.build import build_scene
-from punctura.scene.check import check_tables
-from punctura.scene.unusual import UnusualWarning, unusual_numbers
+from punctura.scene.check import UnusualWarning, check_tables, unusual_numbers
 
 _FOLDER = Path(__file__).parents[1] / "ready_scenes"
 

@@ -1,18 +1,21 @@
 """The schema of scene files, from the core's table of their keys, for the reader, the writer and the JSON Schema.
 
-The core also checks the values. The JSON Schema gets the bounds from the same table (scene/json_schema.py).
+The core also checks the values. Bounds and defaults of the JSON Schema come from the same table.
 """
 
 from __future__ import annotations
 
+import math
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from pydantic import Field, create_model
+from pydantic.json_schema import JsonSchemaValue
 
-from punctura._core import SceneKey, scene_keys, scene_tables
+from punctura._core import SceneKey, gauge_diameters, scene_keys, scene_tables
 from punctura.files.fields import Name, Number, NumberOrAutomatic, Numbers, Vector, WholeNumber
 from punctura.files.tables import Table
-from punctura.files.units import from_si, split_key
+from punctura.files.units import from_si, split_key, to_si
 
 KEYS: dict[str, list[SceneKey]] = {name: [] for name, *_ in scene_tables()}  # of each table; "" is the file itself
 for _key in scene_keys():
@@ -84,3 +87,51 @@ if TYPE_CHECKING:
 else:
     SceneFile = _model(*_FILE[:3], {name: _table(name, title, required) for name, title, _, required in _TABLES})
     Look, Behind = (MODELS["membrane"].model_fields[key].annotation for key in ("look", "behind"))
+
+
+def scene_json_schema() -> JsonSchemaValue:
+    """JSON Schema (2020-12) of a scene file.
+
+    Keys of Punctura: `x-unit` is the unit of a number, `x-symbol` its letter in K06, `x-diameters-mm` the diameters of
+    the gauges in `enum`, in the same order. `x-optional` marks a table that a scene may lack.
+    """
+    schema = SceneFile.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    for name, model in MODELS.items():
+        properties = schema["$defs"][model.__name__]["properties"]
+        for key in KEYS[name]:
+            _complete(properties[key.key], key)
+    needle = schema["$defs"]["NeedleTable"]
+    gauge, diameter = needle["properties"]["gauge"], KEYS["needle"][0]
+    gauge["enum"] = list(gauge_diameters())
+    gauge["x-diameters-mm"] = [float(in_file(diameter, value)) for value in gauge_diameters().values()]
+    needle["allOf"] = [{"oneOf": [{"required": [key]} for key in pair]} for pair in ALTERNATIVES]
+    schema["properties"]["membrane"]["minItems"] = 1
+    syringe = schema["properties"]["syringe"]
+    schema["properties"]["syringe"] = {"$ref": syringe["anyOf"][0]["$ref"], "x-optional": True}
+    return schema
+
+
+def _complete(entry: JsonSchemaValue, key: SceneKey) -> None:
+    kinds = entry.pop("anyOf", [])
+    if any(kind.get("type") == "null" for kind in kinds):  # the key is optional, but never null
+        entry |= next(kind for kind in kinds if kind.get("type") != "null")
+        entry.pop("default", None)
+    elif kinds:  # a number or a word
+        entry["anyOf"] = kinds
+    list_of = entry.get("items", {}) if entry.get("type") == "array" else {}
+    number = next((kind for kind in (entry, *kinds, list_of) if kind.get("type") == "number"), None)
+    if number is not None and "default" in entry:
+        entry["default"] = list(entry["default"]) if number is list_of else float(entry["default"])
+    unit = split_key(key.key)[1]
+    if unit.name:
+        entry["x-unit"] = unit.name
+    if number is None or key.kind == "vector":
+        return
+    for bound, is_open, closed_name, open_name in (
+        (key.min, key.min_open, "minimum", "exclusiveMinimum"),
+        (key.max, key.max_open, "maximum", "exclusiveMaximum"),
+    ):
+        if math.isfinite(bound):
+            number[open_name if is_open else closed_name] = bound / to_si(Decimal(1), unit)
+    entry["x-reason"] = key.reason

@@ -4,7 +4,7 @@ simulate() computes along a file or an array; an Experiment simulates the hand a
 """
 
 from punctura._core import Experiment, Hand, Plant, RecordedMotion, Strokes, Target
-from punctura.simulation.motion_error import MotionError
+from punctura.simulation.columns import MotionError
 from punctura.simulation.run import simulate
 from punctura.simulation.summary import MembraneSummary, SimulationSummary
 

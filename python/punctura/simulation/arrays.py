@@ -12,11 +12,9 @@ import numpy.typing as npt
 
 from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.progress import Progress
-from punctura.simulation.depth_note import depth_note
-from punctura.simulation.even import Evenness
-from punctura.simulation.motion_error import MotionError
-from punctura.simulation.rate import resampler_for
-from punctura.simulation.resample import unit, with_axis
+from punctura.simulation.columns import MotionError
+from punctura.simulation.resample import Evenness, resampler_for, unit, with_axis
+from punctura.simulation.summary import depth_note
 from punctura.ticks import Ticks
 
 Array = npt.NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""The simulation from file to file: reads a block, runs the model over it, writes a block."""
+"""Simulates from file to file, in constant memory."""
 
 from __future__ import annotations
 
@@ -8,29 +8,44 @@ from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
+import pyarrow as pa
 from numpy.typing import NDArray
 
 from punctura._core import Insertion, Rival, RivalInsertion, Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.target import same_file, target_problems
+from punctura.files.whole_file import same_file, target_problems
 from punctura.progress import Report
 from punctura.scene import scene_text
-from punctura.simulation.depth_note import depth_note
-from punctura.simulation.even import Evenness
-from punctura.simulation.motion_error import TABLES, MotionError
+from punctura.simulation.columns import TABLES, MotionError
 from punctura.simulation.motion_file import MotionFile
 from punctura.simulation.motion_table import MotionTable
-from punctura.simulation.rate import resampler_for
-from punctura.simulation.resample import ROWS_AT_ONCE, Resampler, unit, with_axis
-from punctura.simulation.summary import MembraneSummary, SimulationSummary
-from punctura.simulation.table import output_schema, output_table
-from punctura.ticks import Ticks
+from punctura.simulation.resample import ROWS_AT_ONCE, Evenness, Resampler, resampler_for, unit, with_axis
+from punctura.simulation.summary import MembraneSummary, SimulationSummary, depth_note
+from punctura.ticks import FIELDS, Ticks
+from punctura.ticks.fields import shape_of
 from punctura.ticks.files import SUFFIXES, open_output
 
 Array = NDArray[np.float64]
 
 FARTHEST = 1e6  # m: positions farther away are rejected
 _SURVEY_SHARE = 0.2  # share of the progress for the first pass
+WRITTEN = ("time", "position", "axis", "force", "depth", "axial_force", "lower", "upper", "phase")
+
+
+def output_schema(has_axis: bool, membranes: int, metadata: dict[str, str]) -> pa.Schema:
+    """Names and types of the output's columns."""
+    names = [name for name in WRITTEN if has_axis or name != "axis"]
+    none = Ticks({name: np.empty(shape_of(FIELDS[name], 0, membranes), FIELDS[name].dtype) for name in names})
+    schema = none.to_arrow().schema
+    return pa.schema([field.with_nullable(False) for field in schema], metadata)
+
+
+def output_table(schema: pa.Schema, time: Array, position: Array, axis: Array | None, ticks: Ticks) -> pa.Table:
+    """One block of the result. position and axis are written unchanged."""
+    given = {"time": time, "position": position} | ({} if axis is None else {"axis": axis})
+    written = {name: given[name] if name in given else ticks[name] for name in WRITTEN if name != "axis"}
+    table = Ticks(written | given).to_arrow()
+    return pa.Table.from_arrays([column.combine_chunks() for column in table.select(schema.names)], schema=schema)
 
 
 def simulate_file(

@@ -11,9 +11,7 @@ import pyarrow as pa
 import pyarrow.csv
 from numpy.typing import NDArray
 
-from punctura.simulation.columns import AXIS, read_header
-from punctura.simulation.lines import read_lines
-from punctura.simulation.motion_error import MotionError
+from punctura.simulation.columns import AXIS, MotionError, read_header, read_lines
 
 BLOCK_BYTES = 2 << 20
 KEPT_BYTES = 8 << 20  # of text, whose numbers take about as much

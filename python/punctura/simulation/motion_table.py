@@ -11,8 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from punctura.simulation.columns import AXIS, TIME_AND_POSITION
-from punctura.simulation.motion_error import MotionError
+from punctura.simulation.columns import AXIS, TIME_AND_POSITION, MotionError
 from punctura.simulation.motion_file import Block
 
 ROWS = 1 << 16

@@ -1,4 +1,4 @@
-"""The model's force for a motion: in memory, or from file to file."""
+"""Computes the model's force for a given motion: the function simulate."""
 
 from __future__ import annotations
 

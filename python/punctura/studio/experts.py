@@ -9,8 +9,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from punctura.files.private import private_folder
-from punctura.files.whole_file import write_whole
+from punctura.files.whole_file import private_folder, write_whole
 
 FILE = "experts.json"
 LARGEST = 1_000_000  # bytes; an entry has some hundred

@@ -10,11 +10,9 @@ from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import Tables, parse_toml, read_text
 from punctura.scene import scene_path
-from punctura.scene.build import build_scene
-from punctura.scene.check import check_tables
+from punctura.scene.build import build_scene, file_text
+from punctura.scene.check import check_tables, unusual_numbers
 from punctura.scene.schema import SceneFile
-from punctura.scene.unusual import unusual_numbers
-from punctura.scene.write import file_text
 from punctura.studio.wire.common import ProblemPart
 
 # The schema finds wrong types; these are the limits of Python's own types.

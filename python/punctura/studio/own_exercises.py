@@ -7,8 +7,7 @@ from pathlib import Path
 
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.text import exercise_text
-from punctura.files.private import private_folder
-from punctura.files.whole_file import write_whole
+from punctura.files.whole_file import private_folder, write_whole
 from punctura.studio.limits import MOST_OWN_EXERCISES, MOST_TEXT
 from punctura.studio.names import BadName, safe_name
 

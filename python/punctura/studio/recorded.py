@@ -15,7 +15,7 @@ from punctura._core import force_scale
 from punctura.compare.run import resistance
 from punctura.errors import ConfigurationError
 from punctura.events import EventFinder, find_events
-from punctura.events.recorded import recorded_ticks
+from punctura.events.finder import recorded_ticks
 from punctura.record import Recording
 from punctura.record.columns import ticks_of
 from punctura.studio.loaded import Loaded, from_tables, from_text

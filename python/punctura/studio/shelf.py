@@ -14,8 +14,8 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from punctura.files.private import private_folder
-from punctura.files.user_folder import user_folder
+from punctura.files.names import user_folder
+from punctura.files.whole_file import private_folder
 from punctura.record import Recording, RecordingError, open_recording
 from punctura.record.new_file import in_use, is_abandoned
 from punctura.record.recording import read_found

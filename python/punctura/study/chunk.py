@@ -11,7 +11,7 @@ import pyarrow as pa
 from punctura import __version__, batch
 from punctura.batches import BatchResult
 from punctura.errors import ConfigurationError, Problem
-from punctura.scene.write import scene_text
+from punctura.scene.build import scene_text
 from punctura.study.design import Design
 from punctura.study.folder import MARK, StudyError
 from punctura.study.plan import Plan

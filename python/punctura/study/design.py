@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from punctura.batches import grid
-from punctura.batches.inputs import enough_memory
+from punctura.batches.batch import enough_memory
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.extras import optional
 from punctura.study.plan import MOST_TRIALS, Plan

@@ -9,7 +9,7 @@ from pathlib import Path
 from punctura._core import ServoLoop
 from punctura.record import Recorder, RecordingError, open_recording
 from punctura.results import JsonObject
-from punctura.scene.write import save_scene
+from punctura.scene.build import save_scene
 from punctura.study.chunk import row_schema, run_trials
 from punctura.study.design import design
 from punctura.study.folder import MARK, Folder, StudyError

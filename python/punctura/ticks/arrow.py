@@ -9,9 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from punctura.ticks.columns import Columns
-from punctura.ticks.fields import ABSENT, FIELDS, file_column
-from punctura.ticks.flat import flatten
+from punctura.ticks.fields import ABSENT, FIELDS, Columns, file_column, flatten
 
 WORD = pa.dictionary(pa.int8(), pa.string())
 _PHASE = FIELDS["phase"].column

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from punctura.ticks.columns import Array, Columns, membrane_count
-from punctura.ticks.fields import FIELDS
+from punctura.ticks.fields import FIELDS, Array, Columns, membrane_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,8 +12,7 @@ import numpy.typing as npt
 
 from punctura._core import Fault, TickArrays, describe
 from punctura.extras import optional
-from punctura.ticks.columns import Array, membrane_count
-from punctura.ticks.fields import FIELDS
+from punctura.ticks.fields import FIELDS, Array, membrane_count
 
 if TYPE_CHECKING:
     import pandas

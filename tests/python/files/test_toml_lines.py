@@ -2,7 +2,7 @@
 
 import pytest
 from punctura import scene_names
-from punctura.files.toml_lines import key_lines
+from punctura.files.toml import key_lines
 from punctura.scene.ready import scene_path
 
 TEXT = '''# a comment with [brackets] = 1

@@ -19,7 +19,7 @@ from punctura.identify.folder import Task, identify_folder
 from punctura.identify.plan import information, plans
 from punctura.identify.population import drawn_to_mean, population, random_effects
 from punctura.identify.report import report_html
-from punctura.scene.write import scene_text
+from punctura.scene.build import scene_text
 from punctura.trace import read_trace
 from traces import NEEDLE, trace
 from waiting import wait_until

@@ -4,7 +4,7 @@ import numpy as np
 import punctura as pn
 from punctura.live import Limit, ServoState, SimulatedDevice
 from punctura.record import open_recording, replay
-from punctura.scene.write import scene_text
+from punctura.scene.build import scene_text
 from punctura.simulation import Strokes
 from recorded import recorded
 

@@ -6,7 +6,7 @@ import sys
 import pytest
 from punctura import ConfigurationError, load_scene
 from punctura.exercise import load_exercise
-from punctura.files.toml_bounds import MOST_BYTES
+from punctura.files.toml import MOST_BYTES
 from punctura.live import load_limits, load_placement
 from punctura.live.limits import RunLimits
 

@@ -7,7 +7,7 @@ import json
 import numpy as np
 from punctura import MaxwellBranch, Tissue, load_scene
 from punctura.record import open_recording, replay
-from punctura.scene.write import scene_text
+from punctura.scene.build import scene_text
 from punctura.studio.loaded import from_tables, from_text
 
 

@@ -3,7 +3,7 @@
 import punctura as pn
 import pytest
 from punctura.scene import scene_json_schema
-from punctura.scene.write import file_text
+from punctura.scene.build import file_text
 from punctura.studio.loaded import from_name, from_tables, from_text
 from punctura.studio.view import scene_view
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import punctura
 import pytest
 from punctura import load_scene, scene_names
-from punctura.scene.unusual import UnusualWarning
+from punctura.scene.check import UnusualWarning
 from punctura.studio.loaded import from_name, from_tables
 
 

@@ -21,7 +21,7 @@ from punctura import (
 )
 from punctura.files.units import UNITS, from_si, to_si
 from punctura.scene import DisplaySettings, ServoSettings
-from punctura.scene.write import _number as toml_number
+from punctura.scene.build import _number as toml_number
 
 
 def plain(scene):

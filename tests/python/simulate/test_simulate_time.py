@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from punctura import Insertion, load_scene, simulate
-from punctura.simulation.even import Evenness
-from punctura.simulation.resample import Resampler
+from punctura.simulation.resample import Evenness, Resampler
 
 from .simulate_motions import AXIS_HEADER, HEADER, rows_of, strokes
 

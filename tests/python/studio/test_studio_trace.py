@@ -8,7 +8,7 @@ import pytest
 from attempts import as_a_device_runs_it, motion_of
 from punctura._core import SimulatedDevice
 from punctura.events import find_events
-from punctura.events.recorded import recorded_ticks
+from punctura.events.finder import recorded_ticks
 from punctura.exercise import load_exercise, score
 from punctura.record import open_recording
 from punctura.studio import recorded as trace

@@ -13,8 +13,7 @@ import pyarrow.parquet
 import pytest
 from punctura.simulation import Experiment, Strokes
 from punctura.ticks import ABSENT, FIELDS, Ticks
-from punctura.ticks.fields import file_column, file_columns
-from punctura.ticks.flat import flatten, gather
+from punctura.ticks.fields import file_column, file_columns, flatten, gather
 
 SCENE = pn.load_scene("k06-fig12")
 DOWN = np.array([0.0, -1.0, 0.0])
