@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import punctura as pn
-from punctura.fmu.variables import scene_file_text
+from punctura.fmu.description import scene_file_text
 
 SCENE = "k06-fig12"
 TICKS = 4000

@@ -16,7 +16,7 @@
 
 namespace punctura_fmi {
 
-/// The value references. python/punctura/fmu/variables.py has the same numbers.
+/// The value references. python/punctura/fmu/description.py has the same numbers.
 enum Reference : std::uint32_t {
   time_reference = 0,
   input_reference = 1,   ///< 1 to 6: position, axis

@@ -34,7 +34,7 @@ export interface SceneValues {
 
 /**
  * The text of a scene file (TOML); an object in SI units; or lines `path = value` in SI units, as
- * `punctura.fmu.variables.scene_file_text(scene)` writes them in Python.
+ * `punctura.fmu.description.scene_file_text(scene)` writes them in Python.
  */
 export type Scene = string | SceneValues | { lines: string };
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import punctura as pn
 from punctura.fmu import export_fmu
-from punctura.fmu.variables import scene_file_text, variables
+from punctura.fmu.description import scene_file_text, variables
 
 SCENE = "k06-fig12"
 INPUTS, FORCE = range(1, 7), range(7, 10)

@@ -38,8 +38,8 @@ def command(
     Writes one row for each trial and a report. After an interruption, the same command goes on with the missing trials.
     """
     from punctura.study import load_plan, replay_row, run_study
-    from punctura.study.forecast import Forecast
     from punctura.study.report import in_trials
+    from punctura.study.run import Forecast
 
     def on_forecast(forecast: Forecast) -> None:
         if forecast.is_worth_showing:

@@ -13,8 +13,7 @@ from pathlib import Path
 from punctura._core import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.whole_file import write_whole
-from punctura.fmu.description import model_description
-from punctura.fmu.variables import scene_file_text, variables
+from punctura.fmu.description import model_description, scene_file_text, variables
 from punctura.scene import load_scene
 
 _SUFFIX = {"linux": ".so", "darwin": ".dylib", "win32": ".dll"}

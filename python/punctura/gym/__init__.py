@@ -9,13 +9,10 @@ from punctura.extras import optional
 
 optional("gymnasium", "gym", "punctura.gym")  # before the imports below would fail
 
-from punctura.gym.env import NeedleEnv
-from punctura.gym.names import register
-from punctura.gym.observation import OBSERVATION
+from punctura.gym.env import NeedleEnv, NeedleVectorEnv
 from punctura.gym.population import Population, Vary
-from punctura.gym.task import Task
-from punctura.gym.tasks import TASKS
-from punctura.gym.vector import NeedleVectorEnv
+from punctura.gym.tasks import TASKS, Task, register
+from punctura.gym.trials import OBSERVATION
 
 register()
 

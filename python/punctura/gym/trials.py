@@ -1,17 +1,46 @@
-"""Trials of a task at a fleet: the rules that the single and the vector environment share."""
+"""Trials of a task at a fleet: what the learner gets and gives, and the rules that all environments share."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 import numpy.typing as npt
+from gymnasium.spaces import Box, Space
 
 from punctura import load_scene
 from punctura._core import Fault, Fleet, Hand, Plant
-from punctura.gym.observation import OBSERVATION, Observations, observations
 from punctura.gym.population import Population
-from punctura.gym.task import Task
+from punctura.gym.tasks import Task
+from punctura.results import FleetStep
+
+OBSERVATION = ("force_N", "lowest_force_N", "highest_force_N", "depth_mm", "speed_mm_s")
+"""The columns of an observation, each measured at the device: the force along the needle now, and its lowest and
+highest value since the last observation (positive holds the needle back); the way along the needle since the start; the
+mean speed since the last observation."""
+
+_BOUNDS = np.array([20, 20, 20, 200, 1000], np.float32)
+
+Observations = npt.NDArray[np.float32]
+
+
+def observation_space() -> Space[Observations]:
+    """Five numbers, see OBSERVATION."""
+    return cast(Space[Observations], Box(-_BOUNDS, _BOUNDS, dtype=np.float32))
+
+
+def action_space() -> Space[npt.NDArray[np.float32]]:
+    """The speed of the hand along the needle, as a share of the fastest: -1 back, 1 forward."""
+    return cast(Space[npt.NDArray[np.float32]], Box(-1, 1, (1,), np.float32))
+
+
+def observations(step: FleetStep) -> Observations:
+    """(n, 5)"""
+    columns = (
+        step["force"], step["lowest_force"], step["highest_force"], 1e3 * step["travel"], 1e3 * step["speed"],
+    )  # fmt: skip
+    return np.clip(np.stack(columns, axis=1), -_BOUNDS, _BOUNDS).astype(np.float32)
+
 
 Flags = npt.NDArray[np.bool_]
 

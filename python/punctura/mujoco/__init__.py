@@ -5,7 +5,7 @@ Needs MuJoCo: the extra mujoco.
 
 from punctura.mujoco.attachment import Attachment
 from punctura.mujoco.build import NeedleInTissue, attach, attach_needles
+from punctura.mujoco.implicit import StabilityWarning, smallest_mass
 from punctura.mujoco.needles import Tick
-from punctura.mujoco.stability import StabilityWarning, smallest_mass
 
 __all__ = ["Attachment", "NeedleInTissue", "StabilityWarning", "Tick", "attach", "attach_needles", "smallest_mass"]

@@ -13,12 +13,9 @@ import numpy as np
 
 from punctura import Phase
 from punctura.extras import optional
-from punctura.mujoco.frames import Array, Relative
-from punctura.mujoco.kinematics import Link, relative
-from punctura.mujoco.motion import mobility, without
-from punctura.mujoco.needles import Needles, Tick
-from punctura.mujoco.saved import pack, unpack
-from punctura.mujoco.stability import StabilityWarning, stability_text
+from punctura.mujoco.implicit import StabilityWarning, stability_text
+from punctura.mujoco.kinematics import Array, Link, Relative, mobility, relative, without
+from punctura.mujoco.needles import Needles, Tick, pack, unpack
 
 _PATIENCE_S = 2.0  # for the step of another thread; a block of acting() takes longer
 _NO_CALL = "Python exception raised"  # MuJoCo's words if it cannot call Python, as for a model that it still compiles

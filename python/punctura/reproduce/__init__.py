@@ -5,7 +5,7 @@ from punctura.extras import optional
 
 optional("matplotlib", "plots", "punctura.reproduce")  # before the imports below would fail
 
-from punctura.reproduce.drawing import Measured
 from punctura.reproduce.run import Reproduction, reproduce
+from punctura.reproduce.style import Measured
 
 __all__ = ["Measured", "Reproduction", "reproduce"]

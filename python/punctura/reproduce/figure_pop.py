@@ -7,13 +7,10 @@ from matplotlib.axes import Axes
 
 from punctura import Phase, ThickLaw, Ticks
 from punctura._core import Experiment, Hand, Plant, Strokes
-from punctura.reproduce import palette, stages
-from punctura.reproduce.drawing import Drawing
-from punctura.reproduce.force_position import draw_by_stage
+from punctura.reproduce import palette
+from punctura.reproduce.experiment import NEEDLE, draw_by_stage, k06_membrane, one_membrane, stages
 from punctura.reproduce.palette import INSERTION, WITHDRAWAL
-from punctura.reproduce.scenes import NEEDLE, k06_membrane, one_membrane
-from punctura.reproduce.style import arrow, new_figure, note
-from punctura.reproduce.words import read_words
+from punctura.reproduce.style import Drawing, arrow, new_figure, note, read_words
 
 THICKNESS = 0.2e-3  # m
 STROKE = Strokes((0.0, 1e-3, 0.0), (0.0, -9.6e-3, 0.0), count=1, duration=2.0, rest=0.55, variation=0.0)
@@ -24,7 +21,7 @@ def figure_pop() -> Drawing:
     experiment = Experiment(one_membrane(THICKNESS), STROKE, Plant(encoder_step=0.0), Hand(tremor_rms=0.0))
     trace = experiment.run(experiment.duration)
     depth, force = trace.depth[:, 0] * 1e3, trace.force[:, 1]
-    stage = stages.stages(trace.phase)
+    stage = stages(trace.phase)
     law = ThickLaw(NEEDLE, k06_membrane(THICKNESS))
     q = np.linspace(-1e-3, 8e-3, 1801)
     lower, upper = law.bounds(q)

@@ -9,19 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from punctura.reproduce.drawing import Drawing, Measured
-from punctura.reproduce.figure_10 import figure_10
-from punctura.reproduce.figure_11 import figure_11
-from punctura.reproduce.figure_12 import figure_12
+from punctura.reproduce.experiment import STROKE_DEPTH_MM, k06_scene, operate
 from punctura.reproduce.figure_chatter import figure_chatter
-from punctura.reproduce.figure_laws import figure_3, figure_5
 from punctura.reproduce.figure_pop import figure_pop
-from punctura.reproduce.operator import STROKE_DEPTH_MM, operate
-from punctura.reproduce.page import write_page
-from punctura.reproduce.scenes import k06_scene
-from punctura.reproduce.style import DPI, figure_style
-from punctura.reproduce.table import write_csv
-from punctura.reproduce.versions import versions
+from punctura.reproduce.figures import figure_3, figure_5, figure_10, figure_11, figure_12
+from punctura.reproduce.page import versions, write_csv, write_page
+from punctura.reproduce.style import DPI, Drawing, Measured, figure_style
 
 PAGE = "index.html"
 

@@ -1,9 +1,11 @@
-"""The style of all figures: 300 dpi for print, matplotlib's own font, independent of the user's settings."""
+"""The parts of a figure and their style: 300 dpi, matplotlib's own font, independent of the user's settings."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +15,26 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
+from numpy.typing import NDArray
 
 from punctura.reproduce import palette
+
+
+@dataclass(frozen=True)
+class Words:
+    """The text of a figure."""
+
+    title: str
+    alt: str  # alternative text: the picture in one sentence
+    text: tuple[str, ...]  # paragraphs: what to look for, and the relation to the paper
+
+
+def read_words(name: str, **numbers: float) -> Words:
+    """The text of a figure. `numbers` fill the named placeholders."""
+    raw = files("punctura.reproduce").joinpath("words", f"{name}.txt").read_text(encoding="utf-8")
+    title, alt, *text = (part.strip().format(**numbers) for part in raw.strip().split("\n\n"))
+    return Words(title, alt, tuple(text))
+
 
 WIDTH_IN = 7.0  # width of two journal columns
 DPI = 300
@@ -120,3 +140,30 @@ def arrow(
             "shrinkB": 0,
         },
     )
+
+
+Table = Mapping[str, Sequence[Any] | NDArray[Any]]
+"""Columns by name, with the unit in the name. All have the same length."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number measured in a run, and the expected number from the law (NaN if the law gives none)."""
+
+    figure: str
+    quantity: str
+    unit: str
+    expected: float
+    measured: float
+    source: str  # source of the expected number
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One figure. `tables` hold exactly the drawn data and are written as CSV files."""
+
+    name: str  # name of its files, without suffix
+    words: Words
+    figure: Figure
+    tables: Mapping[str, Table]  # file name without suffix -> columns
+    measured: tuple[Measured, ...] = ()

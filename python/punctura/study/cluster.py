@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from punctura import __version__
 from punctura.extras import optional
-from punctura.study.chunk import chunk_table
-from punctura.study.design import Design
+from punctura.study.design import Design, chunk_table
 from punctura.study.folder import StudyError
 from punctura.study.plan import Plan
 

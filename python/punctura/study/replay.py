@@ -10,8 +10,7 @@ from punctura._core import ServoLoop
 from punctura.record import Recorder, RecordingError, open_recording
 from punctura.results import JsonObject
 from punctura.scene.build import save_scene
-from punctura.study.chunk import row_schema, run_trials
-from punctura.study.design import design
+from punctura.study.design import design, row_schema, run_trials
 from punctura.study.folder import MARK, Folder, StudyError
 from punctura.study.plan import Plan
 

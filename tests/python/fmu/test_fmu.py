@@ -9,8 +9,7 @@ import punctura as pn
 import pytest
 from fmu_slave import INPUTS, SCENE, Slave
 from punctura.fmu import export_fmu
-from punctura.fmu.units import base_units
-from punctura.fmu.variables import variables
+from punctura.fmu.description import base_units, variables
 
 
 def names_of(version, tree):

@@ -12,8 +12,8 @@ import numpy as np
 import punctura as pn
 import punctura.mujoco
 import pytest
-from punctura.mujoco.frames import seen_from
 from punctura.mujoco.implicit import solve
+from punctura.mujoco.kinematics import seen_from
 from punctura.scene import ServoSettings
 
 RNG = np.random.default_rng(13)

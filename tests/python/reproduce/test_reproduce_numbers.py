@@ -8,9 +8,16 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from punctura import Insertion, Membrane, Needle, ThinLaw
-from punctura.reproduce.measure import alternations, of_law
-from punctura.reproduce.operator import operate
-from punctura.reproduce.scenes import COUPLING, INWARD, NEEDLE, k06_membrane, k06_scene
+from punctura.reproduce.experiment import (
+    COUPLING,
+    INWARD,
+    NEEDLE,
+    alternations,
+    k06_membrane,
+    k06_scene,
+    of_law,
+    operate,
+)
 
 pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they share takes seconds to make
 

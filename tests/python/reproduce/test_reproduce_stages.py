@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from punctura import Phase
-from punctura.reproduce.stages import stages
+from punctura.reproduce.experiment import stages
 
 CODES = {
     "o": Phase.outside, "s": Phase.sticking, "i": Phase.sliding_in, "x": Phase.sliding_out,

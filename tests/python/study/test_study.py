@@ -15,7 +15,7 @@ from punctura.record import open_recording
 from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.design import design
 from punctura.study.folder import Folder, StudyWarning
-from punctura.study.forecast import Forecast
+from punctura.study.run import Forecast
 from studies import GRID, in_chunks, written
 
 SOBOL = """
@@ -160,7 +160,7 @@ def test_the_report_has_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     report = (tmp_path / "out" / "report.md").read_text()
     assert "![drop[0]](pictures/drop_0.svg)" in report
     points = (tmp_path / "out" / "pictures" / "peak.svg").read_text()
-    monkeypatch.setattr("punctura.study.pictures._MOST_POINTS", 3)
+    monkeypatch.setattr("punctura.study.report._MOST_POINTS", 3)
     run_study(plan, tmp_path / "out")
     bands = (tmp_path / "out" / "pictures" / "peak.svg").read_text()
     assert points.startswith("<?xml") and bands != points
