@@ -1,13 +1,11 @@
 """Exercises: files with a task in a scene and its goals; attempts; results (docs/exercises.md)."""
 
 from punctura.exercise.attempt import Attempt
-from punctura.exercise.exercise import Exercise
-from punctura.exercise.expected import cannot_show, expected_losses, thumb_cannot_show
-from punctura.exercise.load import exercise_names, exercise_of, exercise_of_bytes, exercises, load_exercise
+from punctura.exercise.course import cannot_show, expected_losses, thumb_cannot_show
+from punctura.exercise.exercise import Exercise, exercise_json_schema
+from punctura.exercise.load import exercise_names, exercise_of, exercise_of_bytes, exercises, load_exercise, score
 from punctura.exercise.result import Coaching, GoalState, Loss, Metrics, Overshoot, Remark, Result, Status
 from punctura.exercise.results import ResultsError, ResultStore, default_folder
-from punctura.exercise.schema import exercise_json_schema
-from punctura.exercise.score import score
 
 __all__ = [
     "Attempt",

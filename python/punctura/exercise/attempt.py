@@ -13,16 +13,15 @@ from punctura import Scene, __version__, ticks
 from punctura._core import Fault
 from punctura.events import Event, EventFinder
 from punctura.exercise import words
-from punctura.exercise.coach.coach import Coach
+from punctura.exercise.coach import Coach
 from punctura.exercise.course import asked_push, course_of, felt_membranes, judges_plunger
 from punctura.exercise.exercise import Exercise
 from punctura.exercise.goals import GOALS
-from punctura.exercise.judge import Achievement, LimitJudge
+from punctura.exercise.goals.goal import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
-from punctura.exercise.moment import Moment, first_of, moment
 from punctura.exercise.motion import Stays
 from punctura.exercise.result import Coaching, GoalState, Result, Status
-from punctura.exercise.ticks import Flags, Geometry, JudgedTicks
+from punctura.exercise.ticks import Flags, Geometry, JudgedTicks, Moment, first_of, moment
 from punctura.exercise.yields import Yields
 
 
@@ -233,9 +232,9 @@ class Attempt:
             return [one.why_missed(cast(Moment, one.missed), self._measures, self._space) for one in now]
         if self._passed or self._achieved:
             lost = self._measures.unfelt(ended)
-            said = words.passed(self._achievements, self._measures, self._space, first)
-            said += [one.why_not_measured(self._decision, first) for one in self._unmeasured]
-            return said + [words.not_felt(one) for one in lost]
+            sentences = words.passed(self._achievements, self._measures, self._space, first)
+            sentences += [one.why_not_measured(self._decision, first) for one in self._unmeasured]
+            return sentences + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
 

@@ -1,4 +1,4 @@
-"""The course of an attempt: the target space in the running scene, and what all goals together ask."""
+"""What all goals of an exercise ask together, and which of it a device cannot show."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ import math
 import numpy as np
 
 from punctura import Scene
+from punctura._core import ForceLimits, Syringe, crossing, force_scale, grazing_cosine, law_curve
 from punctura.errors import ConfigurationError, Problem
+from punctura.exercise.exercise import Exercise, ExerciseFile, start_axis
+from punctura.exercise.fields import MOST_PUSH_N
 from punctura.exercise.goals import Course, Reach, Stay
-from punctura.exercise.schema import ExerciseFile
-from punctura.exercise.space import TargetSpace, place_of
+from punctura.exercise.losses import LEAST_NEEDED_N, NEEDED_SHARE, needed_drop, remedy
+from punctura.exercise.result import Loss, unfelt
+from punctura.exercise.ticks import TargetSpace, place_of
 
 # Illustrative: a thumb that only rests on the plunger feels no loss; a feel_plunger goal sets its own
 LEAST_PUSH_N = 0.5
@@ -79,3 +83,99 @@ def felt_membranes(file: ExerciseFile, scene: Scene) -> set[int]:
     if space.sign is None if space.sign_is_felt is None else space.sign_is_felt:
         names.add(space.behind)
     return {place_of(scene, name) for name in names}
+
+
+def expected_losses(exercise: Exercise, scene: Scene, limits: ForceLimits) -> list[Loss]:
+    """For each membrane whose loss must be felt: the loss for a needle that goes straight in from the start.
+
+    scene: as the device runs it. limits: in effect on the device. Only the peak limit counts, because how far the
+    long-run limit lowers the ceiling depends on the person.
+    """
+    axis = np.asarray(start_axis(scene, exercise.file.start.angle_deg, exercise.file.start.heading))
+    start = np.asarray(exercise.start_position)
+    scale = force_scale(scene, limits)
+    walls = _walls(scene, start, axis)
+    losses = []
+    for i in sorted(felt_membranes(exercise.file, scene)):
+        _, _, peak, through, _, _ = crossing(scene, i, walls[i][1])
+        surface = walls[i][0]
+        model = [_friction(scene, walls, surface + depth) for depth in (peak, through)]
+        felt = [min(scale * force, limits.max_force) for force in model]
+        losses.append(
+            Loss(
+                membrane=i,
+                name=scene.membranes[i].name,
+                time=0.0,
+                before=felt[0],
+                after=felt[1],
+                model_before=model[0],
+                model_after=model[1],
+                force_scale=scale,
+                needed=needed_drop(felt[0]),
+            )
+        )
+    return losses
+
+
+def cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits) -> str:
+    """Why this device cannot show a loss that the exercise needs, and what to do; empty if it can."""
+    return " ".join(
+        f"This device cannot show the loss of resistance of the {loss.name} ({loss.figures}), so an attempt cannot be "
+        f"passed here. {remedy(loss)}"
+        for loss in unfelt(expected_losses(exercise, scene, limits))
+    )
+
+
+def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thumb: ForceLimits | None) -> str:
+    """Why the thumb cannot feel the plunger give way, or how hard it must push; empty if the asked push is enough.
+
+    limits: of the needle's device. thumb: of the second device; None without one. As for the needle, only the peak
+    limit counts. At best, the friction of the plunger and the pressure in the space are left when it gives way.
+    """
+    if scene.syringe is None or not judges_plunger(exercise.file):
+        return ""
+    if thumb is None:
+        return (
+            "The thumb is a key here and feels nothing, so the plunger is judged by the model's force. With a second "
+            "device under the thumb (--second-device), it is judged by what the thumb could feel."
+        )
+    scale, left = force_scale(scene, limits), _left(exercise, scene, scene.syringe.syringe)
+    least = max(left + LEAST_NEEDED_N / scale, left / (1 - NEEDED_SHARE))
+    before, after = (min(scale * force, thumb.max_force) for force in (MOST_PUSH_N, left))
+    if least > MOST_PUSH_N or before - after < needed_drop(before):
+        return (
+            f"The second device cannot show that the plunger gives way ({before - after:.2f} N at best; "
+            f"{needed_drop(before):.2g} N needed), so an attempt cannot be passed here. Set another force_scale in "
+            "the scene, or use a stronger second device."
+        )
+    if least > asked_push(exercise.file):
+        return (
+            f"At the force scale of {scale:.2g}, push the plunger with clearly more than {least:.1f} N: with less, the "
+            "thumb could not feel it give way, and the attempt is not judged as passed."
+        )
+    return ""
+
+
+def _left(exercise: Exercise, scene: Scene, syringe: Syringe) -> float:
+    """What the plunger resists with in the space, N: its friction, and the pressure there."""
+    behind = scene.membranes[place_of(scene, exercise.file.space.behind)].outflow_behind
+    return max(0.0, syringe.friction + syringe.area * behind.pressure)
+
+
+def _walls(scene: Scene, start: np.ndarray, axis: np.ndarray) -> list[tuple[float, float]]:
+    """Of each membrane: where the needle meets its surface, m along the needle, and n.b."""
+    walls = []
+    for placed in scene.membranes:
+        normal = np.asarray(placed.inward_normal) / np.linalg.norm(placed.inward_normal)
+        cosine = max(float(normal @ axis), grazing_cosine)
+        walls.append((float(normal @ (np.asarray(placed.point) - start)) / cosine, cosine))
+    return walls
+
+
+def _friction(scene: Scene, walls: list[tuple[float, float]], depth: float) -> float:
+    """The friction of all membranes on a needle that moves in, N. depth: of the point, m along the needle."""
+    total = 0.0
+    for i, (surface, cosine) in enumerate(walls):
+        law = law_curve(scene, i, math.acos(min(1.0, cosine)))
+        total += float(np.interp(depth - surface, law["depth"], [-edge for edge in law["lower"]]))
+    return total

@@ -9,10 +9,9 @@ import numpy as np
 from punctura import Scene
 from punctura._core import tip_length
 from punctura.errors import MISSING, Problem
-from punctura.exercise.exercise import start_axis
+from punctura.exercise.exercise import ExerciseFile, start_axis
 from punctura.exercise.fields import LEAST_MM
 from punctura.exercise.goals import Given, Reach, Stay
-from punctura.exercise.schema import ExerciseFile
 
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
 ROUNDING_MM = 1e-9  # rounding error of sums and differences of decimal numbers

@@ -1,17 +1,73 @@
-"""An exercise after reading and checking."""
+"""An exercise: the schema of its file (docs/exercises.md), its text, and the exercise after checking."""
 
 from __future__ import annotations
 
+import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
+from pydantic.json_schema import JsonSchemaValue
 
 from punctura import Scene
 from punctura.errors import Problem
-from punctura.exercise.goals import AnyGoal, Reach
-from punctura.exercise.schema import ExerciseFile
+from punctura.exercise.fields import Space, Start, Text, Word
+from punctura.exercise.goals import GOALS, AnyGoal, Reach
+from punctura.files.tables import Table
+
+
+class ExerciseFile(Table):
+    """An exercise: a scene, a task in it, and its goals."""
+
+    title: Word
+    description: Text
+    instruction: Text
+    scene: Word  # a ready scene's name, or the path of a scene file relative to this file
+    level: Annotated[int, Field(ge=1, le=100)] = 100  # place in the list of the ready exercises: the easiest first
+    blind: bool = False  # the page shows no needle and no depth while the exercise runs
+    start: Start
+    space: Space
+    goal: Annotated[list[AnyGoal], Field(min_length=1)]
+
+
+def exercise_json_schema() -> JsonSchemaValue:
+    """JSON Schema of exercise files. `x-label` marks the key with which a form asks for a goal, `x-syringe` a goal that
+    needs a syringe."""
+    schema = ExerciseFile.model_json_schema()
+    for goal in GOALS.values():
+        schema["$defs"][goal.__name__]["x-syringe"] = goal.needs_syringe
+    return schema
+
+
+def exercise_text(file: ExerciseFile) -> str:
+    """The TOML text of an exercise. Keys with their default values are left out."""
+    tables = file.model_dump(exclude_defaults=True)
+    heads = {key: tables.pop(key) for key in ("start", "space")}
+    goals = [goal.model_dump(exclude_defaults=True) | {"kind": goal.kind} for goal in file.goal]
+    tables.pop("goal")
+    parts = [_lines(tables)]
+    parts += [f"\n[{key}]\n{_lines(table)}" for key, table in heads.items()]
+    parts += [f"\n[[goal]]\n{_lines({'kind': goal.pop('kind')} | goal)}" for goal in goals]
+    return "".join(parts)
+
+
+def _lines(table: Mapping[str, object]) -> str:
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
+
+
+def _value(value: object) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return f"[{', '.join(_value(one) for one in value)}]"
+    return repr(value)
+
 
 Triple = tuple[float, float, float]
 

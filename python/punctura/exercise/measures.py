@@ -14,8 +14,7 @@ from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.motion import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks
+from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, TargetSpace
 from punctura.exercise.yields import YieldMeasures
 from punctura.live.limit_words import CUTS, LIMIT_WORDS
 

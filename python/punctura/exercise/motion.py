@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import GONE_S, Flags, JudgedTicks, Numbers
+from punctura.exercise.ticks import GONE_S, Flags, JudgedTicks, Numbers, TargetSpace
 
 RULER = 0.5e-3  # m; shorter moves, from tremor and encoder steps, are not added up
 
@@ -65,7 +64,7 @@ class Path:
             tip = tip[step:]
 
 
-_TICK_S = 1e-9  # rounding of times
+TICK_S = 1e-9  # rounding of times
 
 PAUSE_SPEED = 0.5e-3  # m/s; a slower needle stands still
 
@@ -86,7 +85,7 @@ class MeanSpeed:
         tip = np.concatenate([self._tip, ticks.tip])
         inside = np.concatenate([self._inside, good])
         rows = np.arange(len(self._time), len(time))
-        start = np.searchsorted(time, time[rows] - self._seconds + _TICK_S, side="right") - 1
+        start = np.searchsorted(time, time[rows] - self._seconds + TICK_S, side="right") - 1
         outside = np.concatenate([[0], np.cumsum(~inside)])
         first = np.maximum(start, 0)
         known: Flags = (start >= 0) & (outside[rows + 1] == outside[first])

@@ -1,9 +1,9 @@
-"""The tip's position relative to the membranes, tick by tick."""
+"""The ticks of an attempt as they are judged: geometry, moments, and the target space."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -189,3 +189,74 @@ def _wide(column: NDArray[Any], m: int, none: float) -> NDArray[Any]:
         return column[:, :m]
     shape = (column.shape[0], m - has, *column.shape[2:])
     return np.concatenate([column, np.full(shape, none, dtype=column.dtype)], axis=1)
+
+
+class Moment(NamedTuple):
+    tick: int
+    time: float  # s
+
+
+def moment(ticks: JudgedTicks, row: int) -> Moment:
+    return Moment(int(ticks.tick[row]), float(ticks.time[row]))
+
+
+def first_of(ticks: JudgedTicks, flags: Flags) -> Moment | None:
+    return moment(ticks, int(flags.argmax())) if flags.any() else None
+
+
+def by(when: Moment | None, until: Moment | None) -> bool:
+    """Whether `when` exists and is not after `until`."""
+    return when is not None and (until is None or when.tick <= until.tick)
+
+
+@dataclass(frozen=True)
+class TargetSpace:
+    """The space behind one membrane's far face. It ends at another's near face, at a depth, or not at all.
+
+    Distances are along the membranes' normals.
+    """
+
+    name: str
+    sign: str  # sign of the arrival; may be empty
+    behind: int
+    in_front_of: int | None
+    begins: float  # m behind the far face of `behind`
+    ends: float  # the same; infinite without an end at a depth
+    press: float  # m, allowed depth of the point in `in_front_of`
+    # The definition of arriving and staying, for every measure and sentence.
+    arrive_whole: bool  # the whole tip, not only the point
+    arrive_depth: float | None  # m, if deeper than the start of the space
+    stay_whole: bool
+
+    def holds(self, ticks: JudgedTicks, whole_tip: bool, depth: float | None = None) -> Flags:
+        """The ticks in which the point, or the whole tip, is in the space and at least at `depth`, m.
+
+        A needle that the front membrane does not hold is not in the space.
+        """
+        least = self.begins if depth is None else depth
+        past = (ticks.tip_past if whole_tip else ticks.past)[:, self.behind]
+        deep = past > 0 if least == 0 and not whole_tip else past >= least - ROUNDING
+        return deep & ticks.inside[:, self.behind] & ~self.too_deep(ticks)
+
+    def too_deep(self, ticks: JudgedTicks) -> Flags:
+        """The ticks in which the point is behind the space's end, or in an unknown place."""
+        flags = np.zeros(len(ticks), dtype=np.bool_)
+        if self.in_front_of is not None:
+            flags |= ~(ticks.below[:, self.in_front_of] <= self.press)
+        if np.isfinite(self.ends):
+            flags |= ~(ticks.past[:, self.behind] <= self.ends + ROUNDING)
+        return flags
+
+    def arrived(self, ticks: JudgedTicks) -> Flags:
+        """The ticks in which the needle meets the `reach` goal, or without one the place of the `stay` goal."""
+        return self.holds(ticks, self.arrive_whole, self.arrive_depth)
+
+    @property
+    def arrival(self) -> str:
+        """The arrival, for sentences such as "0.8 s after ..."."""
+        return self.sign or f"you had reached {self.name}"
+
+
+def place_of(scene: Scene, name: str) -> int:
+    """The index of an existing membrane in the running scene."""
+    return [placed.name for placed in scene.membranes].index(name)

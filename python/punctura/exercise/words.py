@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from punctura._core import Fault, describe
 from punctura.exercise.fields import Space
-from punctura.exercise.judge import Achievement
+from punctura.exercise.goals.goal import Achievement
 from punctura.exercise.losses import remedy
 from punctura.exercise.measures import Measures
 from punctura.exercise.quantities import tenths
 from punctura.exercise.result import GoalState, Loss, PlungerLoss
-from punctura.exercise.space import TargetSpace
+from punctura.exercise.ticks import TargetSpace
 
 
 def state(goal: GoalState) -> str:
@@ -59,27 +59,27 @@ def of_page(late: float) -> list[str]:
 
 def of_force(measures: Measures) -> list[str]:
     """Tells how long the force was off in the tissue, and how long limits made the felt force smaller."""
-    said = []
+    sentences = []
     if measures.force_off:
         off = tenths(measures.force_off)
-        said = [f"The force was off for {off} s while the needle was in the tissue: turn it on before you begin."]
+        sentences = [f"The force was off for {off} s while the needle was in the tissue: turn it on before you begin."]
     cut = " and ".join(f"{tenths(seconds)} s ({words})" for words, seconds in measures.force_cut.items())
-    return [*said, f"Limits cut the felt force for {cut}."] if cut else said
+    return [*sentences, f"Limits cut the felt force for {cut}."] if cut else sentences
 
 
 def passed(achievements: Sequence[Achievement], measures: Measures, space: TargetSpace, first: str) -> list[str]:
     """Sentences about a success."""
-    said = []
+    sentences = []
     if measures.arrival is not None and measures.first_touch is not None:
         seconds = tenths(measures.arrival - measures.first_touch)
         entries = "at the first entry" if measures.entries == 1 else f"with {measures.entries} entries"
-        said.append(f"You reached {space.name} {seconds} s after touching the {first}, {entries}.")
+        sentences.append(f"You reached {space.name} {seconds} s after touching the {first}, {entries}.")
     if any(one.seconds > 0 for one in achievements):
-        said.append(f"You stayed in it for {tenths(measures.longest_stay)} s.")
+        sentences.append(f"You stayed in it for {tenths(measures.longest_stay)} s.")
     if measures.yields:
         last = measures.yields[-1]
-        said.append(
+        sentences.append(
             f"The plunger gave way under {tenths(last.push)} N; you injected {tenths(last.injected * 1e6)} mL in the "
             f"next {last.seconds:g} s."
         )
-    return said
+    return sentences

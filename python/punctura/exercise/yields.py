@@ -9,8 +9,7 @@ import numpy as np
 
 from punctura.exercise.losses import needed_drop
 from punctura.exercise.result import PlungerLoss, Yield
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, JudgedTicks, Numbers
+from punctura.exercise.ticks import Flags, JudgedTicks, Numbers, TargetSpace
 
 ROUNDING_N = 0.01  # a device gives a force with an error of about this
 DELAY_S = 5e-3  # a second device gives the force of an earlier tick; illustrative, for 400 Hz and more
@@ -98,7 +97,7 @@ class Yields:
         return self._thumb.mark(marked, entering) if self._thumb else marked
 
 
-REACTION_S = 0.3  # a thumb reacts within it; illustrative
+THUMB_REACTION_S = 0.3  # a thumb reacts within it; illustrative
 
 
 class YieldMeasures:
@@ -138,7 +137,12 @@ class YieldMeasures:
     def settle(self, ticks: JudgedTicks) -> None:
         for k, one in enumerate(self.found):
             rows = (ticks.time >= one.time) & np.isfinite(ticks.injected)
-            soon = rows & (ticks.time <= one.time + REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
+            soon = (
+                rows
+                & (ticks.time <= one.time + THUMB_REACTION_S)
+                & np.isfinite(ticks.push)
+                & np.isfinite(ticks.push_felt)
+            )
             self.found[k] = one = self._injected(k, one, ticks, rows & (ticks.time <= one.time + one.seconds))
             if one.loss is not None and soon.any():
                 self.found[k] = one.model_copy(update={"loss": self._followed(k, one.loss, ticks, soon)})
@@ -149,7 +153,7 @@ class YieldMeasures:
         if not rows.any():
             return one
         injected = float(ticks.injected[rows].max()) - self._volumes[k]
-        late = ticks.push[rows & (ticks.time >= one.time + REACTION_S)]
+        late = ticks.push[rows & (ticks.time >= one.time + THUMB_REACTION_S)]
         pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
         update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
         return one.model_copy(update=update)
@@ -178,9 +182,9 @@ class YieldMeasures:
     @property
     def ends(self) -> list[float]:
         """The time at which each measurement ends, s."""
-        return [one.time + max(one.seconds, REACTION_S if one.loss else 0.0) for one in self.found]
+        return [one.time + max(one.seconds, THUMB_REACTION_S if one.loss else 0.0) for one in self.found]
 
     @property
     def complete(self) -> list[Yield]:
         """Those after which a thumb could have reacted."""
-        return [one for one in self.found if self._seen_to >= one.time + REACTION_S]
+        return [one for one in self.found if self._seen_to >= one.time + THUMB_REACTION_S]

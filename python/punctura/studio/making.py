@@ -6,7 +6,7 @@ import base64
 
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise import Exercise, exercise_of, exercise_of_bytes
-from punctura.exercise.text import exercise_text
+from punctura.exercise.exercise import exercise_text
 from punctura.studio.catalog import DRAFT, Exercises
 from punctura.studio.limits import MOST_TEXT
 from punctura.studio.names import safe_name

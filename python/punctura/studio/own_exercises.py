@@ -5,8 +5,7 @@ from __future__ import annotations
 import threading
 from pathlib import Path
 
-from punctura.exercise.exercise import Exercise
-from punctura.exercise.text import exercise_text
+from punctura.exercise.exercise import Exercise, exercise_text
 from punctura.files.whole_file import private_folder, write_whole
 from punctura.studio.limits import MOST_OWN_EXERCISES, MOST_TEXT
 from punctura.studio.names import BadName, safe_name

@@ -183,7 +183,7 @@ def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, mon
         told.append(second_device)
         return Attempt(exercise, scene, second_device)
 
-    monkeypatch.setattr(sys.modules["punctura.exercise.score"], "Attempt", attempt)
+    monkeypatch.setattr(sys.modules["punctura.exercise.load"], "Attempt", attempt)
     device = SimulatedDevice(Target([0, 6e-3, 0]))
     thumb = ThumbLoop(SimulatedDevice(Target([0, 0, 0]))) if second else None
     file = tmp_path / "run.parquet"

@@ -9,7 +9,7 @@ import pytest
 from punctura._core import ForceLimits
 from punctura.errors import ConfigurationError
 from punctura.exercise import exercise_names, exercise_of, load_exercise
-from punctura.exercise.text import exercise_text
+from punctura.exercise.exercise import exercise_text
 from punctura.scene import scene_path
 from punctura.studio import catalog
 from punctura.studio.catalog import Exercises

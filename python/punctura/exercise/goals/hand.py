@@ -9,16 +9,13 @@ from typing import Annotated, Literal
 import numpy as np
 
 from punctura.events import Event
-from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
-from punctura.exercise.goals.goal import Course, Goal
-from punctura.exercise.judge import LimitJudge, SoFar
-from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.goals.goal import Course, Goal, LimitJudge, SoFar
 from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.quantities import speed
 from punctura.exercise.result import Remark
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks
+from punctura.exercise.seen import Seen
+from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, TargetSpace, by, first_of
 
 ROUNDING_RAD = 1e-9
 SPEED_MEAN_S = 0.1  # over which a speed is measured: a period of tremor, or nearly

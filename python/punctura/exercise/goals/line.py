@@ -12,15 +12,12 @@ from punctura import Scene
 from punctura._core import grazing_cosine
 from punctura.errors import Problem
 from punctura.events import Event
-from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Distance, Vector, no_direction
-from punctura.exercise.goals.goal import Course, Given, Goal
-from punctura.exercise.judge import LimitJudge, SoFar
-from punctura.exercise.moment import Moment, by, first_of
+from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar
 from punctura.exercise.quantities import mm, tenths
 from punctura.exercise.result import Remark
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import JudgedTicks
+from punctura.exercise.seen import Seen
+from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace, by, first_of
 
 
 def across(scene: Scene, along: list[float]) -> NDArray[np.float64]:

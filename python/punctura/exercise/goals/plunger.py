@@ -10,17 +10,13 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from punctura.events import Event
-from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import Push, Seconds, Volume, asked
-from punctura.exercise.goals.goal import Course, Goal
-from punctura.exercise.judge import Achievement, SoFar, WindowJudge
-from punctura.exercise.moment import Moment, first_of
+from punctura.exercise.goals.goal import Achievement, Course, Goal, SoFar, WindowJudge
 from punctura.exercise.quantities import millilitres, tenths
 from punctura.exercise.result import Remark
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, JudgedTicks
-from punctura.exercise.yields import REACTION_S
+from punctura.exercise.seen import FIRM_STOP, RESTING_N, Seen
+from punctura.exercise.ticks import Flags, JudgedTicks, Moment, TargetSpace, first_of
+from punctura.exercise.yields import THUMB_REACTION_S
 
 EMPTY = 0.99  # share of a syringe's contents; if more has left it, its plunger does not give way any more
 
@@ -162,9 +158,9 @@ class PlungerJudge(WindowJudge):
         one = max(seen.metrics.yields, key=lambda one: one.injected, default=None)
         if one is None:
             return
-        still = one.push_after is not None and one.push_after > t.RESTING_N
+        still = one.push_after is not None and one.push_after > RESTING_N
         after = (
-            f"You still pushed the plunger with {one.push_after:.2f} N {REACTION_S:g} s after it gave way"
+            f"You still pushed the plunger with {one.push_after:.2f} N {THUMB_REACTION_S:g} s after it gave way"
             if still
             else ("You pushed the plunger on when it gave way")
         )
@@ -181,7 +177,7 @@ class PlungerJudge(WindowJudge):
 
     def praise(self, seen: Seen) -> Iterator[Remark]:
         most = max((one.injected for one in seen.metrics.yields), default=math.inf)
-        if most <= t.FIRM_STOP * self.within:
+        if most <= FIRM_STOP * self.within:
             text = (
                 f"You let the plunger go well: only {millilitres(most)} after it gave way; {millilitres(self.within)} "
                 "are allowed."

@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from punctura.exercise.fields import Distance, Seconds, asked
-from punctura.exercise.goals.goal import Course, Goal
-from punctura.exercise.judge import Achievement, SoFar
+from punctura.exercise.goals.goal import Achievement, Course, Goal, SoFar
 from punctura.exercise.quantities import tenths
-from punctura.exercise.space import TargetSpace
-from punctura.exercise.ticks import Flags, JudgedTicks
+from punctura.exercise.ticks import Flags, JudgedTicks, TargetSpace
 
 
 class Reach(Goal):

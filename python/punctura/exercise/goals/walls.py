@@ -12,16 +12,12 @@ from pydantic import Field
 from punctura import Scene
 from punctura.errors import MISSING, Problem
 from punctura.events import Event
-from punctura.exercise.coach import thresholds as t
-from punctura.exercise.coach.seen import Seen
 from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word, asked
-from punctura.exercise.goals.goal import Course, Given, Goal
-from punctura.exercise.judge import LimitJudge, SoFar, WindowJudge
-from punctura.exercise.moment import Moment, first_of
+from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar, WindowJudge
 from punctura.exercise.quantities import mm, speed, tenths, times
 from punctura.exercise.result import Remark
-from punctura.exercise.space import TargetSpace, place_of
-from punctura.exercise.ticks import GONE_S, ROUNDING, Flags, JudgedTicks
+from punctura.exercise.seen import FIRM_STOP, NEAR_STOP, REACTION_S, Seen
+from punctura.exercise.ticks import GONE_S, ROUNDING, Flags, JudgedTicks, Moment, TargetSpace, first_of, place_of
 
 
 class NeverPass(Goal):
@@ -56,7 +52,7 @@ class NeverPassJudge(LimitJudge):
         if last.speed <= 0:
             return  # the readings before it are missing
         since = None if seen.arrival is None or seen.decision is None else seen.decision.time - seen.arrival
-        if since is not None and since >= 2 * t.REACTION_S:
+        if since is not None and since >= 2 * REACTION_S:
             when, what = f", {tenths(since)} s after you reached {seen.space.name}", "draw back when the force grows"
         else:
             when, what = "", "push more slowly, so that you have time to stop"
@@ -161,7 +157,7 @@ class StopJudge(WindowJudge):
                 continue
             too_far = f"when the {self.membrane} gave way, and went {mm(one.distance - self.within)} too far"
             # A moving hand goes on until it reacts. A hand that pushes without moving fast is let go by the wall.
-            if push.speed * t.REACTION_S >= one.distance / 2:
+            if push.speed * REACTION_S >= one.distance / 2:
                 text = f"You moved at {speed(push.speed)} {too_far}: push more slowly when the resistance grows."
             else:
                 text = f"You were still pushing with {seen.newtons(push.force)} {too_far}: brace your hand earlier."
@@ -172,7 +168,7 @@ class StopJudge(WindowJudge):
 
     def praise(self, seen: Seen) -> Iterator[Remark]:
         stops = list(seen.stops(self.index))
-        if stops and all(one.distance <= t.FIRM_STOP * self.within for _, one in stops):
+        if stops and all(one.distance <= FIRM_STOP * self.within for _, one in stops):
             farthest = max(one.distance for _, one in stops)
             text = (
                 f"You stopped well: only {mm(farthest)} past the {self.membrane} when it gave way; "
@@ -182,7 +178,7 @@ class StopJudge(WindowJudge):
 
     def advice(self, seen: Seen) -> Iterator[Remark]:
         for push, one in seen.stops(self.index):
-            if self.state(seen.decision, True) == "met" and one.distance >= t.NEAR_STOP * self.within:
+            if self.state(seen.decision, True) == "met" and one.distance >= NEAR_STOP * self.within:
                 text = (
                     f"You went {mm(one.distance)} past the {self.membrane} when it gave way; {mm(self.within)} are "
                     f"allowed: you were pushing with {seen.newtons(push.force)} at {speed(max(push.speed, 0.0))}, "
