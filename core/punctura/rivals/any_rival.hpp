@@ -7,15 +7,10 @@
 #include <utility>
 #include <variant>
 
-#include "punctura/rivals/dahl.hpp"
-#include "punctura/rivals/exponential.hpp"
-#include "punctura/rivals/gordon.hpp"
-#include "punctura/rivals/hunt_crossley.hpp"
-#include "punctura/rivals/kelvin_voigt.hpp"
+#include "punctura/rivals/elastic.hpp"
+#include "punctura/rivals/friction_alone.hpp"
 #include "punctura/rivals/mahvash_dupont.hpp"
 #include "punctura/rivals/okamura.hpp"
-#include "punctura/rivals/sign_of_velocity.hpp"
-#include "punctura/rivals/stick_slip.hpp"
 
 namespace punctura {
 

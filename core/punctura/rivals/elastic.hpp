@@ -1,14 +1,36 @@
-// The state and the friction behind the puncture that several rivals share.
+// Rivals that resist by elasticity until the tissue is punctured, and by friction behind the puncture.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
-#include "punctura/rivals/dry_friction.hpp"
 #include "punctura/rivals/rival.hpp"
 
 namespace punctura {
+
+/// Dry friction after Karnopp (1985): outside the dead band the friction is that of sliding. Inside the dead band it
+/// keeps its last value, but it is never stronger than the friction of sliding.
+///
+/// Karnopp takes the applied force inside the dead band. A device with a commanded force does not measure it, so the
+/// last value stands for it.
+struct DryFriction {
+  double held = 0;  ///< N
+
+  /// in, out: friction of sliding inwards and outwards, N, both 0 or more. dead_band: m/s.
+  double step(double in, double out, double velocity, double dead_band) noexcept {
+    if (velocity > dead_band)
+      held = in;
+    else if (velocity < -dead_band)
+      held = -out;
+    else
+      held = std::clamp(held, -out, in);
+    return held;
+  }
+
+  static void archive(auto& self, auto& state) { state.numbers(self.held); }
+};
 
 /// The state of a layer that resists by elasticity until it is punctured, and by friction from then on.
 struct PuncturedState {
@@ -62,5 +84,133 @@ constexpr std::array<Number, n + m> joined(const std::array<Number, n>& a, const
   std::copy(b.begin(), b.end(), all.begin() + n);
   return all;
 }
+
+/// f = k z + b v to the puncture, never less than 0; friction behind it. Constant k and b for a layer.
+struct KelvinVoigt : BehindPuncture {
+  static constexpr const char* name = "kelvin_voigt";
+  static constexpr const char* title = "Kelvin-Voigt (Barbe 2007)";
+  static constexpr const char* source = "Barbe et al., Int. J. Robotics Research 26(11-12), 2007";
+
+  double stiffness = 100;  ///< k, N/m
+  double damping = 0;      ///< b, N s/m
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<KelvinVoigt>;
+    return joined(
+        std::array{N{&KelvinVoigt::stiffness, "stiffness", "N/m", 0, 1e5, "k, stiffness to the puncture"},
+                   N{&KelvinVoigt::damping, "damping", "N s/m", 0, 1e3, "b, damping to the puncture", Shows::speeds}},
+        behind<KelvinVoigt>());
+  }
+
+  using State = PuncturedState;
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    if (!state.punctured && depth < puncture) return std::max(0.0, stiffness * depth + damping * velocity);
+    state.punctured = true;
+    return slide(state, depth, velocity);
+  }
+};
+static_assert(Punctures<KelvinVoigt>);
+
+/// f = k z^n (1 + a v) to the puncture, never less than 0; friction behind it.
+struct HuntCrossley : BehindPuncture {
+  static constexpr const char* name = "hunt_crossley";
+  static constexpr const char* title = "Hunt-Crossley";
+  static constexpr const char* source =
+      "Hunt, Crossley: Coefficient of restitution interpreted as damping in vibroimpact. J. Appl. Mech. 42(2), 1975";
+
+  double peak = 1;      ///< k puncture^n: the elastic force at the puncture, N
+  double exponent = 2;  ///< n
+  double damping = 0;   ///< a, s/m
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<HuntCrossley>;
+    return joined(
+        std::array{
+            N{&HuntCrossley::peak, "peak", "N", 0, 100, "k puncture^n, the elastic force at the puncture"},
+            N{&HuntCrossley::exponent, "exponent", "-", 0.2, 8, "n, exponent of the depth"},
+            N{&HuntCrossley::damping, "damping", "s/m", 0, 1000, "a, damping over elastic force", Shows::speeds}},
+        behind<HuntCrossley>());
+  }
+
+  using State = PuncturedState;
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    if (!state.punctured && depth < puncture)
+      return peak * std::pow(depth / puncture, exponent) * std::max(0.0, 1 + damping * velocity);
+    state.punctured = true;
+    return slide(state, depth, velocity);
+  }
+};
+static_assert(Punctures<HuntCrossley>);
+
+/// f = f0 (exp(b z) - 1) to the puncture, as Maurin et al. 2004 fitted it to punctures in vivo; friction behind it.
+struct Exponential : BehindPuncture {
+  static constexpr const char* name = "exponential";
+  static constexpr const char* title = "exponential to puncture (Maurin 2004)";
+  static constexpr const char* source =
+      "Maurin et al.: In vivo study of forces during needle insertions. Perspective in Image-Guided Surgery, 2004";
+
+  double scale = 0.1;   ///< f0, N
+  double growth = 200;  ///< b, 1/m
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<Exponential>;
+    return joined(std::array{N{&Exponential::scale, "scale", "N", 0, 1e3, "f0, scale of the exponential rise"},
+                             N{&Exponential::growth, "growth", "1/m", 1, 5000, "b, growth of the exponential rise"}},
+                  behind<Exponential>());
+  }
+
+  using State = PuncturedState;
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    if (!state.punctured && depth < puncture) return scale * std::expm1(std::min(growth * depth, 50.0));
+    state.punctured = true;
+    return slide(state, depth, velocity);
+  }
+};
+static_assert(Punctures<Exponential>);
+
+/// A piecewise model after Gordon et al. 2015: an exponential rise to the puncture, an exponential fall behind it, then
+/// a straight line. docs/rivals.md says which part of the source we could read.
+struct Gordon : BehindPuncture {
+  static constexpr const char* name = "gordon";
+  static constexpr const char* title = "piecewise (Gordon 2015)";
+  static constexpr const char* source =
+      "Gordon, Kim, Barnett, Moore: Needle insertion force model for haptic simulation. ASME MSEC2015-9352, 2015";
+
+  double scale = 0.1;   ///< N
+  double growth = 200;  ///< 1/m
+  double fall = 1e-3;   ///< length of the fall behind the puncture, m
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<Gordon>;
+    return joined(std::array{N{&Gordon::scale, "scale", "N", 0, 1e3, "scale of the exponential rise"},
+                             N{&Gordon::growth, "growth", "1/m", 1, 5000, "growth of the exponential rise"},
+                             N{&Gordon::fall, "fall", "m", 1e-5, 0.05, "length of the fall behind the puncture"}},
+                  behind<Gordon>());
+  }
+
+  struct State : PuncturedState {
+    double peak = 0, deepest = 0;  ///< N at the puncture; m
+
+    static void archive(auto& self, auto& state) {
+      PuncturedState::archive(self, state);
+      state.numbers(self.peak, self.deepest);
+    }
+  };
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    if (!state.punctured && depth < puncture) {
+      state.peak = scale * std::expm1(std::min(growth * depth, 50.0));
+      return state.peak;
+    }
+    state.punctured = true;
+    state.deepest = std::max(state.deepest, depth);
+    const double above = std::max(0.0, state.peak - friction - friction_slope * puncture);
+    return slide(state, depth, velocity, above * std::exp(-std::max(0.0, state.deepest - puncture) / fall));
+  }
+};
+static_assert(Punctures<Gordon>);
 
 }  // namespace punctura

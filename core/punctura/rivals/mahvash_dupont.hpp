@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "punctura/rivals/dry_friction.hpp"
-#include "punctura/rivals/rival.hpp"
+#include "punctura/rivals/elastic.hpp"
 
 namespace punctura {
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "punctura/rivals/dry_friction.hpp"
-#include "punctura/rivals/rival.hpp"
+#include "punctura/rivals/elastic.hpp"
 
 namespace punctura {
 
