@@ -53,9 +53,9 @@ inline std::optional<RivalInsertion> try_build_rivals(const Scene& scene, std::s
 /// automatic force scale follows from the rivals' own forces. Throws SceneError.
 inline RivalServoStep build_rivals(const Scene& scene, std::span<const AnyRival> rivals, const GateLimits& gate = {},
                                    const ForceLimits& limits = {}) {
-  std::vector<Problem> problems;
-  auto step = detail::step_of(scene, try_build_rivals(scene, rivals, problems), problems, gate, limits);
-  return detail::or_throw(std::move(step), std::move(problems));
+  return detail::or_throw([&](auto& problems) {
+    return detail::step_of(scene, try_build_rivals(scene, rivals, problems), problems, gate, limits);
+  });
 }
 #endif
 

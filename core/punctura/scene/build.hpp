@@ -149,8 +149,11 @@ class SceneError : public std::invalid_argument {
 };
 
 namespace detail {
-template <typename T>
-T or_throw(std::optional<T> made, std::vector<Problem> problems) {
+/// The result of make(problems). Throws SceneError if it is empty.
+template <typename Make>
+auto or_throw(Make&& make) {
+  std::vector<Problem> problems;
+  auto made = make(problems);
   if (!made) throw SceneError(std::move(problems));
   return std::move(*made);
 }
@@ -159,29 +162,21 @@ T or_throw(std::optional<T> made, std::vector<Problem> problems) {
 /// The same as try_build_insertion(), but throws SceneError.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto build_insertion(const Scene& scene, LawOf&& law_of) {
-  std::vector<Problem> problems;
-  auto made = try_build_insertion<Scalar>(scene, problems, law_of);
-  return detail::or_throw(std::move(made), std::move(problems));
+  return detail::or_throw([&](auto& problems) { return try_build_insertion<Scalar>(scene, problems, law_of); });
 }
 template <typename Scalar = double>
 BasicInsertion<Scalar> build_insertion(const Scene& scene) {
-  std::vector<Problem> problems;
-  auto made = try_build_insertion<Scalar>(scene, problems);
-  return detail::or_throw(std::move(made), std::move(problems));
+  return detail::or_throw([&](auto& problems) { return try_build_insertion<Scalar>(scene, problems); });
 }
 
 /// The same as try_build(), but throws SceneError with the problems of scene and limits.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto build(const Scene& scene, LawOf&& law_of, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  std::vector<Problem> problems;
-  auto made = try_build<Scalar>(scene, problems, law_of, gate, limits);
-  return detail::or_throw(std::move(made), std::move(problems));
+  return detail::or_throw([&](auto& problems) { return try_build<Scalar>(scene, problems, law_of, gate, limits); });
 }
 template <typename Scalar = double>
 BasicServoStep<Scalar> build(const Scene& scene, const GateLimits& gate = {}, const ForceLimits& limits = {}) {
-  std::vector<Problem> problems;
-  auto made = try_build<Scalar>(scene, problems, gate, limits);
-  return detail::or_throw(std::move(made), std::move(problems));
+  return detail::or_throw([&](auto& problems) { return try_build<Scalar>(scene, problems, gate, limits); });
 }
 #endif
 

@@ -31,14 +31,14 @@ class StepMaker {
   template <GivesModel ModelOf>
   StepMaker(ModelOf model_of)
       : make_([model_of = std::move(model_of)](const Scene& scene, const GateLimits& gate, const ForceLimits& limits) {
-          std::vector<Problem> problems;
-          auto model = model_of(scene, problems);
-          if (model && model->size() != scene.membranes.size())
-            problems.push_back({"membrane", static_cast<double>(model->size()),
-                                "is the number of walls in the model; the scene must have as many membranes"});
-          if (!problems.empty()) model.reset();
-          auto step = detail::step_of(scene, std::move(model), problems, gate, limits);
-          return AnyStep::of(detail::or_throw(std::move(step), std::move(problems)));
+          return AnyStep::of(detail::or_throw([&](auto& problems) {
+            auto model = model_of(scene, problems);
+            if (model && model->size() != scene.membranes.size())
+              problems.push_back({"membrane", static_cast<double>(model->size()),
+                                  "is the number of walls in the model; the scene must have as many membranes"});
+            if (!problems.empty()) model.reset();
+            return detail::step_of(scene, std::move(model), problems, gate, limits);
+          }));
         }) {}
 
   /// The model of a scene file: K06's law or measured tissue.
