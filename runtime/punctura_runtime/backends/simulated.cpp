@@ -1,5 +1,7 @@
 #include "punctura_runtime/backends/simulated.hpp"
 
+#include "punctura_runtime/backends/backend.hpp"
+
 namespace punctura {
 
 namespace {
@@ -55,5 +57,23 @@ void SimulatedDevice::end() noexcept {
   desired_ = {plant_.tip(), Vector3d::Zero()};
   write({0, 0, 0});
 }
+
+/// In the registry: always available; its hand follows a target.
+namespace {
+
+BackendStatus simulated_status() {
+  return {"simulated", BackendStatus::State::available, "A simulated PHANTOM Omni: no hardware.", {"PHANTOM Omni"}};
+}
+
+std::shared_ptr<Device> open_simulated(const OpenOptions& how) {
+  SimulatedOptions options;
+  options.rate = how.rate;
+  options.realtime = how.realtime;
+  return std::make_shared<SimulatedDevice>(Target({0, 5e-3, 0}), options);
+}
+
+}  // namespace
+
+const Backend backends::simulated{"simulated", &simulated_status, &open_simulated};
 
 }  // namespace punctura

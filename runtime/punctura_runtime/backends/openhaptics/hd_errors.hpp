@@ -1,15 +1,24 @@
-// The library's error stack. There is one for the process, and reading it empties it. So while ticks run, only the tick
-// reads it.
+// The HD library's errors: what they mean, and their stack. There is one stack for the process, and reading it empties
+// it. So while ticks run, only the tick reads it.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "punctura_runtime/backends/openhaptics/hd_interface.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_words.hpp"
 
 namespace punctura::hd {
+
+/// The device limits its own force and continues: counted, not a reason to stop.
+constexpr bool is_warning(std::uint32_t code) noexcept { return code >= warm_motors && code <= exceeded_max_velocity; }
+
+/// "COMM_ERROR (0x302, internal -28): the link to the device broke ..."
+std::string describe(const ErrorInfo& error);
+
+/// How the user calibrates such a device.
+std::string how_to_calibrate(std::uint32_t styles);
 
 /// Counts how often the device limited its own force: warm motors, force, rise of force, speed.
 struct Warnings {

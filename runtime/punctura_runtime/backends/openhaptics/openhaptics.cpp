@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "punctura/model/decimal.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_words.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
 
 namespace punctura {

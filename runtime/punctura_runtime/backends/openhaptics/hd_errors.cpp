@@ -1,4 +1,4 @@
-#include "punctura_runtime/backends/openhaptics/hd_words.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 
 #include <cstdio>
 
