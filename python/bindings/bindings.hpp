@@ -7,6 +7,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +18,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "named.hpp"
 #include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
@@ -31,7 +31,30 @@ namespace punctura::bindings {
 /// False for a complex and for a masked number. float() takes both from NumPy: it drops the imaginary part, and makes
 /// NaN of a masked number.
 bool is_real(nb::handle object) noexcept;
+
+// Python types of arguments and results that C++ takes and gives as plain objects.
+template <std::size_t n>
+struct TypeText {
+  char text[n];
+  consteval TypeText(const char (&given)[n]) { std::copy_n(given, n, text); }
+};
+template <TypeText type>
+struct Named {};
+/// An object with this type in the signature. nanobind does not check it.
+template <TypeText type>
+using Object = nb::typed<nb::object, Named<type>>;
+
+using ArrayLike = Object<"numpy.typing.ArrayLike">;
+using Floats = Object<"numpy.typing.NDArray[numpy.float64]">;
+using Columns = Object<"dict[str, numpy.typing.NDArray[typing.Any]]">;
+using TicksObject = Object<"Ticks">;
+using ProgressArgument = Object<"Progress">;
 }  // namespace punctura::bindings
+
+template <punctura::bindings::TypeText type>
+struct nb::detail::type_caster<punctura::bindings::Named<type>> {
+  static constexpr auto Name = const_name(type.text);
+};
 
 /// Every argument that is a number, alone or in a list. In place of nanobind's own conversion.
 template <>

@@ -12,29 +12,21 @@ namespace {
 
 /// One Python class for all kinds of motion. It keeps its constructor arguments.
 class AnyExperiment : public OneThread {
-  template <typename Self, typename Function>
-  static auto visit(Self& self, Function&& function) {
-    return std::visit(
-        [&](auto& experiment) -> decltype(function(std::get<1>(self.experiment_))) {
-          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(experiment)>, std::monostate>)
-            throw std::logic_error("no motion");
-          else
-            return function(experiment);
-        },
-        self.experiment_);
-  }
-
  public:
   AnyExperiment(const Scene& scene, const AnyMotion& motion, const Vector3d& axis, const DeviceDynamics& plant,
                 const Hand& hand, std::uint64_t seed)
-      : scene_(scene), motion_(motion), axis_(to_array(axis)), plant_(plant), hand_(hand), seed_(seed) {
-    std::visit(
-        [&]<typename Motion>(Motion laid_out) {
-          if constexpr (!std::is_same_v<Motion, Target>) duration_ = laid_out.duration();
-          experiment_.emplace<Experiment<Motion>>(scene, std::move(laid_out), axis, plant, hand, seed);
-        },
-        laid_out(motion, seed));
-  }
+      : scene_(scene),
+        motion_(motion),
+        axis_(to_array(axis)),
+        plant_(plant),
+        hand_(hand),
+        seed_(seed),
+        experiment_(std::visit(
+            [&]<typename Motion>(Motion laid_out) -> AnyOne {
+              if constexpr (!std::is_same_v<Motion, Target>) duration_ = laid_out.duration();
+              return Experiment<Motion>(scene, std::move(laid_out), axis, plant, hand, seed);
+            },
+            laid_out(motion, seed))) {}
 
   const Scene& scene() const noexcept { return scene_; }
   double duration() const noexcept { return duration_; }
@@ -47,24 +39,26 @@ class AnyExperiment : public OneThread {
   }
 
   std::uint64_t ticks() const {
-    return visit(*this, [](const auto& experiment) { return experiment.ticks(); });
+    return std::visit([](const auto& experiment) { return experiment.ticks(); }, experiment_);
   }
 
   TicksObject run(double duration, const ProgressArgument& progress) {
     const std::size_t n = ticks_in(duration, scene_.servo.rate);
     const Running running(*this);
-    return visit(*this, [&](auto& experiment) { return run_experiment(experiment, n, progress); });
+    return std::visit([&](auto& experiment) { return run_experiment(experiment, n, progress); }, experiment_);
   }
 
   std::vector<std::byte> save() const {
-    return visit(*this, [](const auto& experiment) { return save_state(experiment); });
+    return std::visit([](const auto& experiment) { return save_state(experiment); }, experiment_);
   }
   bool load(std::span<const std::byte> state) {
-    return visit(*this, [&](auto& experiment) { return load_state(experiment, state); });
+    return std::visit([&](auto& experiment) { return load_state(experiment, state); }, experiment_);
   }
   nb::tuple arguments() const { return nb::make_tuple(scene_, motion_, plant_, hand_, seed_, axis_); }
 
  private:
+  using AnyOne = std::variant<Experiment<StrokesMotion>, Experiment<RecordedMotion>, Experiment<Target>>;
+
   Scene scene_;
   AnyMotion motion_;
   Triple axis_;
@@ -72,7 +66,7 @@ class AnyExperiment : public OneThread {
   Hand hand_;
   std::uint64_t seed_;
   double duration_ = 0;
-  std::variant<std::monostate, Experiment<StrokesMotion>, Experiment<RecordedMotion>, Experiment<Target>> experiment_;
+  AnyOne experiment_;
 };
 
 }  // namespace

@@ -131,22 +131,18 @@ RivalInsertion built(const Scene& scene, const std::vector<AnyRival>& rivals) {
 }
 
 /// A scene with rivals that keeps its arguments.
-struct SceneRivals : OneThread {
+struct SceneRivals : RivalInsertion, OneThread {
   SceneRivals(const Scene& given, const std::vector<AnyRival>& given_rivals)
-      : scene(given), rivals(given_rivals), insertion(built(scene, rivals)) {}
+      : RivalInsertion(built(given, given_rivals)), scene(given), rivals(given_rivals) {}
   Scene scene;
   std::vector<AnyRival> rivals;
-  RivalInsertion insertion;
 
-  void reset() { insertion.reset(); }
-  std::vector<std::byte> save() const { return save_state(insertion); }
-  bool load(std::span<const std::byte> state) { return load_state(insertion, state); }
   nb::tuple arguments() const { return nb::make_tuple(scene, rivals); }
 };
 
 TicksObject run(SceneRivals& self, const ArrayLike& positions, const ArrayLike& axis,
                 const ProgressArgument& progress) {
-  return run_in_space(self.insertion, self,
+  return run_in_space(self, self,
                       {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"},
                       positions, axis, progress);
 }
