@@ -12,7 +12,7 @@ import pyarrow as pa
 
 from punctura import __version__, batch
 from punctura.batches import BatchResult, grid
-from punctura.batches.batch import enough_memory
+from punctura.batches.inputs import enough_memory
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.extras import optional
 from punctura.scene.build import scene_text
