@@ -20,6 +20,8 @@ LEAST, MOST = 1e-7, 1e4  # variance of a second difference, in those of the nois
 FELT = 0.2  # of the noise of the force: what the noise of the depth adds matters beyond it
 ROUNDING = 1e-6  # of the range of the depths: less is no noise
 EVEN = 1.5  # times the shortest step of time, of the longest one
+HAND = 12.0  # Hz: a hand does not shake faster
+ALIKE = 2.0  # times the noise of every second sample, and the reverse
 SHORTEST = 50  # samples of a trace
 WHITE = 0.8  # of the samples are independent: they are noise
 SURE = 5.0  # standard deviations of chance: a correlation beyond it is no chance
@@ -28,7 +30,7 @@ SURE = 5.0  # standard deviations of chance: a correlation beyond it is no chanc
 def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, float]:
     """The trace with the depth that the needle most likely had, and with draws of it: `trace.depths`; and the noise.
 
-    noise: of a depth, m; None: as samples at even steps of time show it. The same trace and 0 come back where
+    noise: of a depth, m; None: as the samples show it, if they do. The same trace and 0 come back where
     the noise adds too little force to matter, and where the force follows the depth's noise: then the needle moved so.
     """
     shaking = _noise(trace) if noise is None else noise
@@ -45,11 +47,22 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
 
 
 def _noise(trace: Trace) -> float:
-    """The noise of the depth, m, where it can be told from the motion: the samples have a time, at even steps."""
+    """The noise of the depth, m, where its samples, at even steps of time, are fast enough to tell it from a hand."""
     if trace.time is None:
         return 0.0
     steps = np.diff(trace.time)
-    return noise_of(trace.depth) if steps.max() < EVEN * steps.min() else 0.0
+    told = steps.max() < EVEN * steps.min() and 4 * HAND * float(np.mean(steps)) <= 1
+    return steady_noise(trace.depth) if told else 0.0
+
+
+def steady_noise(depth: Array) -> float:
+    """The noise of a depth (n,), m, if every second sample shows the same one; otherwise it is motion: 0.
+
+    In every second sample a motion at w radians a sample seems 2 (1 + cos w) times as large: more than ALIKE times
+    below a quarter of the sample rate.
+    """
+    noise, thinned = noise_of(depth), noise_of(depth[::2])
+    return noise if noise < ALIKE * thinned and thinned < ALIKE * noise else 0.0
 
 
 def _stiffest(trace: Trace) -> float:

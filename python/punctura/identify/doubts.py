@@ -6,12 +6,12 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from punctura.identify.causes import Cause, causes
+from punctura.identify.depth_noise import steady_noise
 from punctura.identify.explained import SURE, Explained, explained
 from punctura.identify.fit import Fit
 from punctura.identify.records import ExplainedRecord
 from punctura.identify.ways import UNEVEN, both_ways, way_out
 from punctura.trace import Segments, Trace
-from punctura.trace.turns import noise_of
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 UNEQUAL = ("barbs", "asymmetric_way_out")  # causes
@@ -49,7 +49,7 @@ def doubts(trace: Trace, segments: Segments, fit: Fit, extensions: Collection[st
     """The doubts about the fit of all samples with these extensions of K06."""
     told = explained(trace, segments, fit)
     found = causes(trace, segments, fit, told)
-    shaking = noise_of(trace.depth)
+    shaking = steady_noise(trace.depth)
     if not told.ok and shaking * fit.parameters.get("coupling_stiffness") > told.noise:
         text = (
             f"The depth has a noise of {shaking * 1e6:.2g} um, which the spring between needle and tissue turns into "

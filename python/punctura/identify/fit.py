@@ -134,7 +134,7 @@ class Fit:
 
     @property
     def rmse(self) -> float:
-        """Root mean square of the residuals, N."""
+        """Root mean square of the residuals, N: weighted, if the noise of the depth was taken out."""
         return float(np.sqrt(self.sse / len(self.residuals)))
 
     @cached_property

@@ -6,8 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from punctura.identify import Rig, identify
+from punctura import Needle
+from punctura.identify import Parameters, Rig, identify
 from punctura.identify.depth_noise import with_quiet_depth
+from punctura.identify.fit import Misfit
+from punctura.identify.parameters import default_coupling, default_membrane
 from punctura.trace import Trace
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
@@ -59,6 +62,49 @@ def test_a_motion_that_the_force_follows_is_no_noise():
     shaken = exact.depth + NOISE * np.random.default_rng(2).normal(size=len(exact))
     force = exact.force + 3000 * (shaken - exact.depth)
     assert with_quiet_depth(Trace(shaken, force, exact.time))[1] == 0.0
+
+
+def by_hand(seed, tremor, rate, noise=0.0):
+    """A stroke in and out, smooth but for a tremor (m, 9 Hz), through one wall; the force follows all but the noise."""
+    time, depth = TOOL["machine_motion"](6e-3)
+    depth = 6e-3 * np.sin(np.pi / 2 * depth / depth.max()) ** 2
+    rng = np.random.default_rng(seed)
+    spectrum = np.fft.rfft(rng.normal(size=len(time)))
+    spectrum *= np.exp(-0.5 * ((np.fft.rfftfreq(len(time), time[1]) - 9) / 1.5) ** 2)
+    shake = np.fft.irfft(spectrum, len(time))
+    depth += tremor * shake / shake.std()
+    row = default_membrane()
+    row[:5] = 2e-3, 600.0, 0.2, 0.2, 0.4e-3
+    true = Parameters(Needle(1.2e-3, 0.4), np.array([row]), default_coupling(3000.0))
+    force = Misfit(Trace(depth, depth, time), true).forces(true) + 5e-3 * rng.normal(size=len(time))
+    return Trace(depth + noise * rng.normal(size=len(depth)), force, time)[:: TOOL["DEVICE_HZ"] // rate]
+
+
+@pytest.mark.parametrize("rate", [100, 50, 25, 12])
+def test_a_motion_without_noise_has_none_at_any_rate(rate):
+    for seed in range(1, 5):
+        traces = [by_hand(seed, tremor, rate) for tremor in (0.0, 30e-6, 100e-6)]
+        traces += [random_trace(seed, Conditions(machine=machine, rate=rate))[0] for machine in (False, True)]
+        assert [with_quiet_depth(one)[1] for one in traces] == [0.0] * 5
+
+
+@pytest.mark.parametrize(("tremor", "rate"), [(0.0, 200), (0.0, 100), (0.0, 50), (30e-6, 200), (30e-6, 100)])
+def test_noise_is_found_in_the_motion_of_a_hand(tremor, rate):
+    for seed in range(1, 5):
+        assert with_quiet_depth(by_hand(seed, tremor, rate, NOISE))[1] == pytest.approx(NOISE, rel=0.25)
+
+
+@pytest.mark.parametrize("rate", [200, 100, 50])
+def test_noise_is_found_in_the_motion_of_a_machine(rate):
+    for seed in (1, 3, 4):
+        found = with_quiet_depth(by_machine(seed)[0][:: 200 // rate])[1]
+        assert found == pytest.approx(NOISE, rel=0.25)
+
+
+def test_slow_samples_need_a_stated_noise():
+    """At 25 Hz the tremor of a hand and white noise look alike."""
+    shaken = by_hand(1, 0.0, 25, NOISE)
+    assert with_quiet_depth(shaken)[1] == 0.0 and with_quiet_depth(shaken, NOISE)[1] == NOISE
 
 
 def test_uneven_samples_are_no_noise():

@@ -94,6 +94,15 @@ def test_noise_of_the_depth_is_named_and_not_a_wall():
     assert "noise of 10 um" in told.causes[0].text or "noise of 9" in told.causes[0].text
 
 
+def test_a_tremor_of_the_hand_is_no_noise_of_the_depth():
+    time, depth = motion()
+    shaken = depth + 0.1e-3 * np.sin(2 * np.pi * 10 * time)
+    force = pulled(2.2)(shaken, force_of(shaken), None) + 8e-3 * np.random.default_rng(1).normal(size=len(depth))
+    told = doubted(Trace(shaken, force, time))
+    assert not told.explained.ok and told.causes
+    assert "depth_noise" not in [cause.kind for cause in told.causes]
+
+
 def test_the_place_that_is_not_explained_is_named():
     """A bump of 0.2 N from 11 to 13 mm on the way in."""
     bump = changed(lambda depth, force, inward: force + 0.2 * inward * ((depth > 11e-3) & (depth < 13e-3)))
