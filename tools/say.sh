@@ -24,7 +24,7 @@ The whole log: $log"
 advice() {
   if grep -qiE 'CERTIFICATE_VERIFY_FAILED|certificate verif|invalid peer certificate' "$1"; then
     echo "A certificate was not trusted. Install ca-certificates (or your organisation's certificate)," \
-      "or set PIP_CERT, then start again."
+      "or set PIP_CERT and SSL_CERT_FILE to its file, then start again."
   elif grep -qiE -e 'NewConnectionError|Temporary failure (in name resolution|resolving)|Could not resolve' \
     -e 'Network is unreachable|Max retries exceeded|ConnectTimeout|Failed to fetch|ProxyError' "$1"; then
     echo "The network is not reachable (see above). Check the connection," \

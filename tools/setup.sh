@@ -33,27 +33,38 @@ lock() {
 }
 unlock() { { exec 9>&-; } 2>/dev/null || true; }
 
-# uv does not read pip's settings. A mirror, a proxy or a certificate that is set for pip is meant for it, too.
+# uv does not read pip's settings. A mirror, a proxy or a certificate that is set for pip is meant for it, too. As for
+# `pip install`: the environment wins over the files, [install] over [global], and a later file over an earlier one.
 take_settings_of_pip() {
-  local key value
-  from_pip=""
+  local listed section key value word index="" extra="" strategy="" links="" hosts="" proxy="" without="" constraints=""
+  local certificate=${REQUESTS_CA_BUNDLE:-${CURL_CA_BUNDLE:-}}
+  listed=$("$tools/bin/python" -m pip config list) || return
   while IFS='=' read -r key value; do
     value=${value#\'} value=${value%\'} value=${value//\\n/ }
-    case ${key##*.} in
-      index-url) export UV_DEFAULT_INDEX="${UV_DEFAULT_INDEX:-$value}" ;;
-      extra-index-url)
-        export UV_INDEX="${UV_INDEX:-$value}"
-        from_pip="$from_pip --index-strategy unsafe-best-match"  # as pip chooses
-        ;;
-      find-links) export UV_FIND_LINKS="${UV_FIND_LINKS:-${value// /,}}" ;;
-      trusted-host) export UV_INSECURE_HOST="${UV_INSECURE_HOST:-$value}" ;;
-      proxy) export ALL_PROXY="${ALL_PROXY:-$value}" ;;
-      cert) export SSL_CERT_FILE="${SSL_CERT_FILE:-$value}" ;;
-      no-index) from_pip="$from_pip --no-index" ;;
-      constraint) from_pip="$from_pip -c ${value// / -c }" ;;
+    [ -n "$value" ] || continue
+    case $key in
+      index-url) index=$value ;;
+      extra-index-url) extra=$value strategy=unsafe-best-match ;;  # as pip chooses
+      find-links) links=$value ;;
+      trusted-host) hosts=$value ;;
+      proxy) proxy=$value ;;
+      cert) certificate=$value ;;
+      no-index) without=$value ;;
+      constraint) constraints=$value ;;
     esac
-  done < <("$tools/bin/python" -m pip config list)
+  done < <(for section in global install :env:; do sed -n "s/^$section\.//p" <<<"$listed"; done)
+  unless_set UV_DEFAULT_INDEX "$index"
+  unless_set UV_INDEX "$extra"
+  unless_set UV_INDEX_STRATEGY "$strategy"
+  unless_set UV_FIND_LINKS "$(echo $links | tr ' ' ,)"
+  unless_set UV_INSECURE_HOST "$hosts"
+  unless_set ALL_PROXY "$proxy"
+  unless_set SSL_CERT_FILE "$certificate"
+  from_pip=""
+  for word in $constraints; do from_pip="$from_pip -c $word"; done
+  case $without in [1yYtT]* | [oO][nN]) from_pip="$from_pip --no-index" ;; esac
 }
+unless_set() { [ -z "$2" ] || [ -n "${!1:-}" ] || export "$1=$2"; }
 # Without the files of settings that uv has for other projects: they could install elsewhere.
 uv() { "$tools/bin/uv" --no-config --system-certs --color never --no-progress "$@"; }
 

@@ -19,7 +19,8 @@ python=/usr/bin/python3 python_minor=3.99
 step Title install install_all all
 """
 UV = """
-echo "$* index=${UV_DEFAULT_INDEX:-} links=${UV_FIND_LINKS:-} proxy=${ALL_PROXY:-} cert=${SSL_CERT_FILE:-}"
+echo "$* index=${UV_DEFAULT_INDEX:-} links=${UV_FIND_LINKS:-} proxy=${ALL_PROXY:-} cert=${SSL_CERT_FILE:-} \
+strategy=${UV_INDEX_STRATEGY:-}"
 case "$*" in
   *" venv "*) mkdir -p .venv/bin && cp build/tools/bin/python .venv/bin && touch .venv/fresh ;;
   *" build "*) mkdir -p build/wheel && touch build/wheel/punctura.whl ;;
@@ -44,16 +45,17 @@ class SetUp:
         (self.root / name).write_text(f"#!/bin/bash\n{script}\n")
         (self.root / name).chmod(0o755)
 
-    def start(self, settings: str = "") -> subprocess.CompletedProcess[str]:
+    def start(self, settings: str = "", **variables: str) -> subprocess.CompletedProcess[str]:
         """settings: of pip, as `pip config list` prints them."""
-        clean = {key: value for key, value in os.environ.items() if not key.startswith(("UV_", "SSL_", "ALL_PROXY"))}
+        left_out = ("UV_", "SSL_", "ALL_PROXY", "REQUESTS_", "CURL_")
+        clean = {key: value for key, value in os.environ.items() if not key.startswith(left_out)}
         command = ["bash", "-c", INSTALL, "bash", str(self.root)]
-        environment = {**clean, "SETTINGS": settings}
+        environment = {**clean, "SETTINGS": settings, **variables}
         return subprocess.run(command, cwd=self.root, env=environment, capture_output=True, text=True, timeout=60)
 
-    def lines(self, settings: str = "") -> list[str]:
+    def lines(self, settings: str = "", **variables: str) -> list[str]:
         """What the start tells uv."""
-        done = self.start(settings)
+        done = self.start(settings, **variables)
         assert done.returncode == 0, done.stdout + done.stderr
         return (self.root / "build/log/install.log").read_text().splitlines()
 
@@ -98,12 +100,36 @@ def test_an_environment_made_by_hand_is_kept_also_after_a_failure(set_up: SetUp)
         ("global.index-url='https://mirror.example/simple'", "index=https://mirror.example/simple"),
         (":env:.find-links='/opt/a\\n/opt/b'", "links=/opt/a,/opt/b"),
         ("global.proxy='http://proxy:3128'\nglobal.cert='/etc/c.pem'", "proxy=http://proxy:3128 cert=/etc/c.pem"),
-        ("user.constraint='/etc/c.txt'", "-c /etc/c.txt"),
+        ("install.constraint='/etc/c.txt'", "-c /etc/c.txt"),
+        ("global.constraint='\\n/a/c.txt\\n/b/c.txt'", "bin/python -c /a/c.txt -c /b/c.txt -c "),
+        ("global.find-links='\\n/opt/a\\n/opt/b'", "links=/opt/a,/opt/b"),
+        ("global.extra-index-url='https://more.example/simple'", "strategy=unsafe-best-match"),
         ("global.no-index='true'", "--no-index"),
+        (":env:.index-url='https://env'\nglobal.index-url='https://file'", "index=https://env "),
+        ("global.index-url='https://file'\n:env:.index-url='https://env'", "index=https://env "),
+        ("global.index-url='https://all'\nglobal.index-url='https://user'", "index=https://user "),
+        ("install.index-url='https://install'\nglobal.index-url='https://all'", "index=https://install "),
+        ("global.index-url='https://all'\nlist.index-url='https://list'", "index=https://all "),
     ],
 )
 def test_settings_of_pip_lead_uv(set_up: SetUp, setting: str, given: str) -> None:
     assert given in set_up.lines(setting)[1]
+
+
+@pytest.mark.parametrize("setting", ["global.no-index='false'", "global.no-index='true'\n:env:.no-index='0'"])
+def test_no_index_that_is_switched_off_leaves_the_index(set_up: SetUp, setting: str) -> None:
+    assert "--no-index" not in set_up.lines(setting)[1]
+
+
+def test_settings_of_uv_win(set_up: SetUp) -> None:
+    line = set_up.lines("global.index-url='https://pip'", UV_DEFAULT_INDEX="https://uv")[1]
+    assert "index=https://uv " in line
+
+
+@pytest.mark.parametrize("name", ["REQUESTS_CA_BUNDLE", "CURL_CA_BUNDLE"])
+def test_the_certificates_of_requests_and_curl_are_those_of_uv(set_up: SetUp, name: str) -> None:
+    assert "cert=/etc/own.pem " in set_up.lines(**{name: "/etc/own.pem"})[1]
+    assert "cert=/etc/uv.pem " in set_up.lines(**{name: "/etc/own.pem", "SSL_CERT_FILE": "/etc/uv.pem"})[1]
 
 
 def test_precompiled_headers_are_emptied_and_stay_as_old_as_they_were(tmp_path):
