@@ -109,7 +109,16 @@ _ELSEWHERE = {
     "batches": ("BatchResult", "LineBatch"),
     "scene": ("DisplaySettings", "SceneField", "ServoSettings", "scene_json_schema"),
     "live": ("DeviceError", "Fault", "Limit", "LiveEstimate", "ServoState"),
-    "simulation": ("Experiment", "Hand", "Plant", "RecordedMotion", "SimulationSummary", "Strokes", "Target"),
+    "simulation": (
+        "Experiment",
+        "Hand",
+        "MotionError",
+        "Plant",
+        "RecordedMotion",
+        "SimulationSummary",
+        "Strokes",
+        "Target",
+    ),
     "syringe": ("Outlet", "Plunger", "Syringe", "SyringeSettings", "outlet_at", "tube_resistance"),
 }
 

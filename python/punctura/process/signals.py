@@ -13,7 +13,10 @@ from typing import Any
 
 
 class WakeSocket:
-    """One thread waits; any thread may wake it, and so may the system's signal handler, through `fileno`."""
+    """One thread waits; any thread may wake it, and so may the system's signal handler, through `fileno`.
+
+    It takes no lock, because the interrupted code may hold it.
+    """
 
     def __init__(self) -> None:
         self._receiver, self._sender = socket.socketpair()

@@ -187,14 +187,11 @@ class Interrupts:
     """Sends a signal to this process before the n-th line that the main thread executes in these files."""
 
     FILES = (
-        *(
-            "/live/session.py",
-            "/process/signals.py",
-            "/live/supervisor.py",
-            "/process/wake_socket.py",
-            "/contextlib.py",
-        ),
+        "/live/session.py",
         "/live/summary.py",
+        "/live/supervisor.py",
+        "/process/signals.py",
+        "/contextlib.py",
     )
 
     def __init__(self, n):
