@@ -18,7 +18,7 @@ def from_all(search: Search, current: Candidate) -> Candidate:
     for the best end of all together.
     """
     model, enough = current.model, noise_limit(search.trace)
-    if model.membranes < 2 or current.fit.rmse < enough:
+    if model.membranes < 2 or current.fit.weighted_rmse < enough:
         return current
     for _ in range(2):  # the second branch of a relaxation comes after the first one
         for extension in extensions(search.needle):

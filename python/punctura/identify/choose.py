@@ -187,7 +187,7 @@ def _one_more(search: Search, current: Candidate) -> Iterator[Candidate]:
     fresh = search.starts(count, False, FRESH)
     models = [replace(current.model, membranes=count)]
     models += [replace(plain, membranes=count)] if current.model.words else []
-    far = current.fit.rmse > FAR * noise_limit(search.trace)
+    far = current.fit.weighted_rmse > FAR * noise_limit(search.trace)
     for model in models:
         from_these = [replace(one, parameters=model.start(one.parameters)) for one in fresh]
         if model is models[0]:

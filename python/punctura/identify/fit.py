@@ -134,7 +134,13 @@ class Fit:
 
     @property
     def rmse(self) -> float:
-        """Root mean square of the residuals, N: weighted, if the noise of the depth was taken out."""
+        """Root mean square of model less measured force at the used samples, N; each of them counts the same."""
+        weights = self.misfit.depth_error.weights[self.misfit.used]
+        return float(np.sqrt(np.mean((self.residuals / weights) ** 2)))
+
+    @property
+    def weighted_rmse(self) -> float:
+        """Root mean square of the residuals, N, whose weights say what the noise of the depth adds: for rules."""
         return float(np.sqrt(self.sse / len(self.residuals)))
 
     @cached_property
@@ -237,7 +243,7 @@ def best_fit(misfit: Misfit, names: Sequence[str], starts: Sequence[Start], enou
             except TraceError as error:
                 reason = str(error)
                 continue
-            if found.rmse < enough:
+            if found.weighted_rmse < enough:
                 return found
             ends.append(found)
     if not ends:

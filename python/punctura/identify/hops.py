@@ -27,7 +27,7 @@ def with_hops(found: Fit) -> Fit:
     Only for several walls: for one, the convex start finds the optimum.
     """
     enough = noise_limit(found.misfit.trace)
-    if len(found.parameters.membranes) < 2 or found.rmse < enough or found.hopped:
+    if len(found.parameters.membranes) < 2 or found.weighted_rmse < enough or found.hopped:
         return found
     rng = np.random.default_rng(0)
     best, idle = found, 0
@@ -36,7 +36,7 @@ def with_hops(found: Fit) -> Fit:
         idle = 0 if end is not None and end.sse < (1 - GAIN) * best.sse else idle + 1
         if end is not None and end.sse < best.sse:
             best = end
-        if idle == IDLE or best.rmse < enough:
+        if idle == IDLE or best.weighted_rmse < enough:
             break
     return replace(best, hopped=True)
 

@@ -37,7 +37,7 @@ def with_pops_moved(found: Fit) -> Fit:
 
 def _moved(found: Fit) -> Fit:
     trace, free, u, least = found.misfit.trace, found.free, found.u.copy(), found.sse
-    if found.rmse < noise_limit(trace):
+    if found.weighted_rmse < noise_limit(trace):
         return found
     sample = float(np.median(np.abs(np.diff(trace.depth))))
     for k, name in enumerate(free.names):

@@ -21,7 +21,8 @@ def better_rivals(found: Identification) -> tuple[TraceComparison, tuple[Row, ..
 def in_words(found: Identification) -> str:
     """One sentence on the rivals, for a trace that the model does not explain."""
     told, better = better_rivals(found)
-    own = f"K06 {found.fit.rmse:.2g} N (punctura rivals)"
+    rmse = min(row.rmse for row in told.rows if row.name in (PRINTED, CHOSEN))
+    own = f"K06 {rmse:.2g} N (punctura rivals)"
     if better:
         return f"Another model does better: {'; '.join(map(_leaves, better[:2]))}, and {own}."
     rivals = [row for row in told.rows if row.name not in (PRINTED, CHOSEN)]

@@ -30,7 +30,10 @@ def test_noise_of_the_depth_makes_no_second_wall_and_the_spring_is_held(seed):
     assert found.doubts.explained.ok
     spring = next(one for one in found.estimates if one.name == "coupling_stiffness")
     assert spring.low <= truth["coupling_stiffness"] <= spring.high and spring.high < 1.15 * spring.low
-    (known,) = found.as_dict()["rig"]
+    told = found.as_dict()
+    left = found.fit.misfit.forces(found.parameters) - found.trace.force
+    assert told["rmse_N"] == pytest.approx(np.sqrt(np.mean(left**2))) and told["rmse_N"] > found.fit.weighted_rmse
+    (known,) = told["rig"]
     assert (known["name"], known["stated"]) == ("depth_noise", False)
     assert known["value"] == pytest.approx(NOISE, rel=0.15)
 
