@@ -32,7 +32,10 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
 
     noise: of a depth, m; None: as the samples show it, if they do. The same trace and 0 come back where
     the noise adds too little force to matter, and where the force follows the depth's noise: then the needle moved so.
+    A quiet trace comes back as it is.
     """
+    if trace.depths is not None:
+        return trace, 0.0
     shaking = _noise(trace) if noise is None else noise
     if (
         len(trace) < SHORTEST

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from punctura._core import Needle, Scene
 from punctura.errors import ConfigurationError, Problem
 from punctura.identify import Identification
+from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.noise import effective_samples
 from punctura.one_thread import one_thread
 from punctura.progress import Report
@@ -90,6 +91,7 @@ def compare_trace(
             raise ConfigurationError([Problem("rival", name, f"must be one of {', '.join([PRINTED, *known])}")])
     if names is not None and PRINTED in names and needle is None:
         raise ConfigurationError([Problem("needle", "", "K06 needs the needle's diameter and tip angle")])
+    trace = with_quiet_depth(trace)[0] if identified is None else identified.trace  # the same one for all models
     segments = segment(trace)
     first = first_stretch(trace, segments)
     fits: list[AnyFit] = []

@@ -68,7 +68,7 @@ class Fitted:
 def fitted(trace: Trace, needle: Needle, membranes: int | Literal["auto"], progress: Callable[[str], None]) -> Fitted:
     """Fits K06, as identify() chooses it, and all rivals. Raises TraceError."""
     found = identify(trace, needle, membranes, progress)
-    segments = segment(trace)
+    trace, segments = found.trace, found.segments  # without the noise of the depth, for all models
     fits = []
     with one_thread("punctura.rivals"):
         for kind in kinds().values():
@@ -121,9 +121,10 @@ def another_trace(all_of_them: Mapping[str, Fitted]) -> tuple[Prediction, ...]:
 
 def _forces(known: Fitted, trace: Trace, shift: float, used: NDArray[np.bool_]) -> dict[str, tuple[str, Array]]:
     """Title and force (n,), N, of each model along a trace whose depths are greater by `shift`, m."""
-    at = replace(trace, depth=trace.depth - shift)
+    quiet = with_quiet_depth(trace)[0]
+    at = replace(quiet, depth=quiet.depth - shift, depths=None)
     p: Parameters = known.found.parameters
-    found = {"k06": (_title(known.found), Misfit(with_quiet_depth(at)[0], p).forces(p)[used])}
+    found = {"k06": (_title(known.found), Misfit(at, p).forces(p)[used])}
     path = path_of(at, segment(at))
     found |= {one.name: (one.title, resistance(one.layers, path)[used]) for one in known.rivals}
     return found | {REPEAT: ("no model: as measured before", _repeated(known.trace, at)[used])}

@@ -1,13 +1,16 @@
 """Predictions: the second insertion from the first, and a trace from the others of a folder."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from punctura.identify import identify
-from punctura.rivals import Layer, Rival, better, hold_out
+from punctura.identify.depth_noise import with_quiet_depth
+from punctura.rivals import Layer, Rival, better, compare_trace, fit_rival, hold_out
 from punctura.rivals.hold_out import REPEAT, another_trace, fitted, means, second_insertion
 from punctura.rivals.kinds import kinds
+from punctura.rivals.layers import resistance
 from punctura.rivals.path import path_of
 from punctura.trace import Trace, TraceError, segment
 from traces import NEEDLE, trace
@@ -46,6 +49,25 @@ def test_what_changes_in_the_second_insertion_is_a_prediction_error_and_not_fitt
     told = {one.name: one for one in second_insertion(weaker, NEEDLE, 1)}
     missing = 0.4 * float(np.sqrt(np.mean(twice.force[twice.strokes == 1] ** 2)))
     assert told["k06"].rmse == pytest.approx(missing, rel=0.1)
+
+
+def test_rivals_get_the_depth_without_its_noise_as_k06_does():
+    twice = trace(noise=NOISE, times=2, hold=0.3)[::4]
+    shaken = replace(twice, depth=twice.depth + 10e-6 * np.random.default_rng(2).normal(size=len(twice)))
+    quiet = with_quiet_depth(shaken)[0]
+    assert quiet.depths is not None and with_quiet_depth(quiet)[0] is quiet
+    kind = kinds()["sign_of_velocity"]
+    compared = compare_trace(shaken, [kind.name, "k06"], needle=NEEDLE, with_chatter=False)
+    assert np.array_equal(compared.trace.depth, quiet.depth)
+    assert compared.row(kind.name).rmse == fit_rival(kind, quiet, segment(quiet)).rmse
+    again = compare_trace(shaken, [kind.name], identified=identify(shaken, NEEDLE, 1), with_chatter=False)
+    assert again.row(kind.name).rmse == compared.row(kind.name).rmse
+    known = fitted(shaken, NEEDLE, 1, lambda _: None)
+    layers = next(one for one in known.rivals if one.name == kind.name).layers
+    assert layers == fit_rival(kind, quiet, segment(quiet)).layers
+    every = np.ones(len(shaken), bool)
+    predicted = hold_out._forces(known, shaken, 0.0, every)
+    assert np.array_equal(predicted[kind.name][1], resistance(layers, path_of(quiet, segment(quiet))))
 
 
 def test_one_insertion_cannot_be_held_out():
