@@ -6,6 +6,7 @@ import math
 import shlex
 import warnings
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from inspect import Parameter, Signature, signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_type_hints
@@ -71,20 +72,27 @@ def reading_of(
     )  # fmt: skip
 
 
-def with_reading(command: Callable[..., None]) -> Callable[..., None]:
-    """A verb that has the options of reading_of() in the place of its parameter `reading`, and gets a Reading."""
+def with_reading(subject: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """A verb that has the options of reading_of() in the place of its parameter `reading`, and gets a Reading.
 
-    def run(**given: Any) -> None:
-        command(reading=reading_of(**{name: given.pop(name) for name in options}), **given)
+    subject: the module of what the verb does. It is imported first, so that it names the extra of a missing package.
+    """
 
-    options = _parameters(reading_of)
-    parameters: dict[str, Parameter] = {}
-    for name, parameter in _parameters(command).items():
-        parameters |= options if name == "reading" else {name: parameter}
-    run.__doc__ = command.__doc__
-    run.__annotations__ = {name: parameter.annotation for name, parameter in parameters.items()}  # typer reads both
-    run.__signature__ = Signature(list(parameters.values()))  # type: ignore[attr-defined]
-    return run
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        def run(**given: Any) -> None:
+            import_module(subject)
+            command(reading=reading_of(**{name: given.pop(name) for name in options}), **given)
+
+        options = _parameters(reading_of)
+        parameters: dict[str, Parameter] = {}
+        for name, parameter in _parameters(command).items():
+            parameters |= options if name == "reading" else {name: parameter}
+        run.__doc__ = command.__doc__
+        run.__annotations__ = {name: parameter.annotation for name, parameter in parameters.items()}  # for typer
+        run.__signature__ = Signature(list(parameters.values()))  # type: ignore[attr-defined]  # for typer
+        return run
+
+    return decorate
 
 
 def _parameters(function: Callable[..., object]) -> dict[str, Parameter]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from punctura.trace.reading import Reading
 
 
-@_trace.with_reading
+@_trace.with_reading("punctura.identify")
 def command(
     *,
     context: typer.Context,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from punctura.trace.reading import Reading
 
 
-@_trace.with_reading
+@_trace.with_reading("punctura.trace")
 def command(
     *,
     context: typer.Context,

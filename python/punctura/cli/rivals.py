@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from punctura.trace.reading import Reading
 
 
-@_trace.with_reading
+@_trace.with_reading("punctura.rivals")
 def command(
     *,
     context: typer.Context,
