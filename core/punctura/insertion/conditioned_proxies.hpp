@@ -46,9 +46,9 @@ void match_by_place(Now& now, const Before& before, Resume&& resume) noexcept {
 /// What all models of an insertion share: it conditions the position, steps one proxy for each membrane and adds their
 /// forces in the order of the membranes. A derived class fills `proxies_` in its constructor and then calls reset().
 ///
-/// Proxies: a vector of proxies, or a std::variant of two kinds of such vectors. A proxy has `step_finite(position,
-/// axis)`, which returns the force, N; also reset(), resume(), same_place(), phase(), tick() and state(), as those of
-/// Proxy3d.
+/// Proxies: a vector of proxies, or a std::variant of two kinds of such vectors. The step of a proxy,
+/// `step_finite(position, axis)`, returns the force, N; a proxy also has reset(), resume(), same_place(), phase(),
+/// tick() and state(), as those of Proxy3d.
 template <typename Scalar_, typename Proxies_, typename Storage>
 class ConditionedProxies {
  public:

@@ -11,7 +11,7 @@ struct Words {
   const char *name, *meaning;
 };
 
-constexpr Words all[] = {
+constexpr Words known[] = {
     {invalid_enum, "INVALID_ENUM",
      "the library does not know what was asked of it: its version is not one that we know"},
     {invalid_value, "INVALID_VALUE", "the library does not accept a value"},
@@ -49,7 +49,7 @@ constexpr Words all[] = {
 std::string describe(const ErrorInfo& error) {
   char number[64];
   std::snprintf(number, sizeof number, " (0x%03x, internal %d)", error.code, error.internal);
-  for (const Words& words : all)
+  for (const Words& words : known)
     if (words.code == error.code) return words.name + std::string(number) + ": " + words.meaning;
   return "error" + std::string(number) + ": not one that we know";
 }
