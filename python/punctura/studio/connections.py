@@ -125,7 +125,8 @@ class Connections:
         return self._by_peer.get(peer) if peer else None
 
     def remove(self, connection: Connection) -> None:
-        self._by_peer.pop(connection.peer, None)
+        if self._by_peer.get(connection.peer) is connection:  # else a later connection has the same port
+            del self._by_peer[connection.peer]
         self.strangers.pop(connection, None)
         self.known.pop(connection, None)
 

@@ -10,7 +10,6 @@ import asyncio
 from collections.abc import Callable
 from typing import Any, cast
 
-from punctura.defects import explain
 from punctura.studio.connections import Connection, Connections
 from punctura.studio.limits import CLOSE_S, MOST_PONGS, REQUESTS_A_SECOND, REQUESTS_AT_ONCE, Bucket
 
@@ -105,7 +104,7 @@ class Gate(asyncio.Protocol):
         try:
             self.server.data_received(data)
         except Exception as error:  # bytes from outside end their own connection only
-            explain(error)
+            asyncio.get_running_loop().call_exception_handler({"message": "the server failed", "exception": error})
             self.transport.abort()
 
     def upgrade(self, server: asyncio.BaseProtocol) -> None:

@@ -98,6 +98,15 @@ def test_who_was_ended_takes_no_place_afterwards(connections):
     assert oldest.transport.aborted and not connections.admit(oldest) and not connections.known
 
 
+def test_a_later_connection_from_the_same_port_stays_known_by_its_address(connections, monkeypatch):
+    monkeypatch.setattr(Transport, "get_extra_info", lambda self, name: ("127.0.0.1", 40000))
+    earlier, later = (connections.add(Transport()) for _ in range(2))
+    connections.remove(earlier)
+    assert connections.of(("127.0.0.1", 40000)) is later
+    connections.remove(later)
+    assert connections.of(("127.0.0.1", 40000)) is None
+
+
 def test_a_known_connection_stays_while_it_is_served_and_is_ended_when_idle(clock, connections):
     connection = connections.add(Transport())
     with connection.serving():
