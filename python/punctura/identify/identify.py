@@ -27,7 +27,7 @@ from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.records import IdentificationRecord
 from punctura.identify.rig import UNKNOWN, Rig, RigValue
 from punctura.identify.scene import scene_of
-from punctura.identify.search import thinned
+from punctura.identify.search import thinned, weighted
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
 from punctura.identify.watch import BetterPoint
@@ -143,7 +143,7 @@ def _identified(
     least, more = np.inf, False  # the squares of the last fit, N^2; whether there are better optima still
     while found is None:
         few_fit = final = choice.current.fit
-        if not all_used:
+        if not all_used or trace.depths is not None:
             tell("all samples")
             final = _with_all_samples(
                 trace, few_fit, [point for model, point in better if model == choice.current.model]
@@ -176,11 +176,18 @@ def _identified(
 def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:
     """The fit of all samples. better: points that are better than such a fit of this model was.
 
-    Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again.
+    Fewer samples smear a pop, so a wrong optimum can look slightly better: all nearly equal ends begin again. The
+    weights of the search are those of K06 with the first number of walls; these are of this model.
     """
     misfit = Misfit(trace, few.parameters, zero=few.misfit.zero).with_depth_error(few.parameters)
     ends = [Start(parameters) for parameters in (few.parameters, *few.others, *better)]
-    return in_order(with_contacts_moved(with_pops_moved(best_fit(misfit, few.free.names, ends))))
+    try:
+        best = weighted(best_fit(misfit, few.free.names, ends))
+        return in_order(with_contacts_moved(with_pops_moved(best)))
+    except TraceError:
+        if len(few.misfit.trace) < len(trace):
+            raise
+        return few
 
 
 def _pops(trace: Trace, segments: Segments) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from punctura import Needle
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate, Rule, candidate
-from punctura.identify.fit import Misfit, Start, best_fit, fit, in_order
+from punctura.identify.fit import Fit, Misfit, Start, best_fit, fit, in_order
 from punctura.identify.hops import with_hops
 from punctura.identify.model import Extension, Model
 from punctura.identify.parameters import Parameters
@@ -20,13 +20,24 @@ from punctura.identify.rises import rise_starts
 from punctura.identify.start import starts
 from punctura.trace import Segments, Trace, TraceError
 
-WEIGHTED = 2  # fits of K06, each with the weights that the one before shows
+WEIGHTED = 2  # fits, each with the weights that the one before shows
 SEARCHED = 600  # samples of a search; the last fit uses all
 
 
 def thinned(trace: Trace) -> Trace:
     """At most SEARCHED samples, evenly taken."""
     return trace[:: max(1, -(-len(trace) // SEARCHED))]
+
+
+def weighted(found: Fit) -> Fit:
+    """The same fit with the weights that it shows itself, as far as such fits end."""
+    for _ in range(0 if found.misfit.trace.depths is None else WEIGHTED):
+        try:
+            more = fit(found.misfit.with_depth_error(found.parameters), found.free.names, found.parameters)
+        except TraceError:
+            break
+        found = replace(more, others=found.others)
+    return found
 
 
 @dataclass(eq=False)
@@ -50,8 +61,7 @@ class Search:
         enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
         try:
             best = best_fit(misfit, model.names, from_these, enough)
-            for _ in range(0 if self.tried or self.trace.depths is None else WEIGHTED):
-                best = fit(misfit.with_depth_error(best.parameters), model.names, best.parameters)
+            best = best if self.tried else weighted(best)
             best = with_pops_moved(with_hops(best) if hops else best)
             found = candidate(name, model, in_order(with_contacts_moved(best)))
         except TraceError:

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from punctura import Needle
-from punctura.identify import Parameters, Rig, identify
+from punctura.identify import Parameters, Rig, identify, search
 from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.fit import Misfit
 from punctura.identify.parameters import default_coupling, default_membrane
-from punctura.trace import Trace
+from punctura.trace import Trace, TraceError
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
 Conditions, random_trace = TOOL["Conditions"], TOOL["random_trace"]
@@ -130,6 +130,25 @@ def test_a_stated_noise_counts():
     assert identify(trace, needle, 1, rig=Rig(depth_noise=0.0)).rig == ()
     (known,) = identify(trace, needle, 1, rig=Rig(depth_noise=8e-6)).rig
     assert str(known) == "depth_noise 8e-06 m, stated"
+
+
+def test_the_last_fit_has_the_weights_of_its_own_model_also_in_a_short_trace(monkeypatch):
+    """The search has no weights here; with several walls it has those of another number of walls."""
+    trace, needle, _ = by_machine(1)
+    monkeypatch.setattr(search, "WEIGHTED", 0)
+    found = identify(trace[::2], needle, 1)
+    assert len(found.trace) <= search.SEARCHED
+    own = found.fit.misfit.with_depth_error(found.parameters).depth_error.weights
+    assert found.fit.misfit.depth_error.weights == pytest.approx(own, abs=0.05) and own.min() < 0.5
+
+
+def test_a_fit_with_weights_that_does_not_end_leaves_the_one_before(monkeypatch):
+    def fails(*_):
+        raise TraceError("the fit did not end")
+
+    trace, needle, _ = by_machine(1)
+    monkeypatch.setattr(search, "fit", fails)
+    assert len(identify(trace[::2], needle, 1).estimates) > 0
 
 
 def test_a_part_of_a_trace_has_that_part_of_the_draws():
