@@ -21,6 +21,7 @@ Option = Annotated[
     ),
 ]
 _STATED = {"depth_noise_um": ("depth_noise", 1e-6)}
+_EXAMPLE = "depth_noise_um=10"
 _TOLERANCES = {
     "diameter_mm": ("diameter_tolerance", 1e-3), "tip_angle_rad": ("tip_angle_tolerance", 1.0),
     "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)),
@@ -34,11 +35,11 @@ def rig_of(given: list[str] | None, needle: str) -> tuple[Rig, str]:
     from punctura.identify.rig import Rig
 
     values = {}
-    for name, text in pairs(given, "--rig").items():
+    for name, text in pairs(given, "--rig", _EXAMPLE).items():
         kind, factor = _STATED.get(name, ("", math.nan))
         values[kind] = factor * _number(text)
         if not 0 <= values[kind] < math.inf:
-            wanted = f"must be as {'=10, '.join(_STATED)}=10, and not negative"
+            wanted = f"must be as {_EXAMPLE}, and not negative"
             raise typer.BadParameter(f"{name}={text} {wanted}", param_hint="--rig")
     sizes = []
     for part in needle.replace("\u00b1", "+-").split(","):

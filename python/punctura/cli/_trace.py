@@ -66,7 +66,7 @@ def reading_of(
     from punctura.trace.reading import Reading
 
     return Reading(
-        pairs(column, "--column", empty=True), pairs(unit, "--unit"), order,
+        pairs(column, "--column", "depth=NAME", empty=True), pairs(unit, "--unit", "depth=mm"), order,
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,
         _speeds(speed), None if depth_file is None else str(depth_file),
     )  # fmt: skip
@@ -118,13 +118,16 @@ def _speeds(text: str | None) -> tuple[tuple[float, float], ...]:
     return speeds
 
 
-def pairs(given: list[str] | None, option: str, empty: bool = False) -> dict[str, str]:
-    """{"depth": "mm"} of ["depth=mm"]. empty: whether a value may be empty: `time=`, no column is the time."""
+def pairs(given: list[str] | None, option: str, example: str, empty: bool = False) -> dict[str, str]:
+    """{"depth": "mm"} of ["depth=mm"]. example: one of this option.
+
+    empty: whether a value may be empty: `time=`, no column is the time.
+    """
     found = {}
     for text in given or []:
         role, equals, value = text.partition("=")
         if not equals or not (value or empty):
-            raise typer.BadParameter(f"{text!r} must be ROLE=VALUE, for example depth=mm", param_hint=option)
+            raise typer.BadParameter(f"{text!r} must be as {example}", param_hint=option)
         found[role.strip()] = value.strip()
     return found
 

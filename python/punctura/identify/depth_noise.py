@@ -24,7 +24,7 @@ HAND = 12.0  # Hz: a hand does not shake faster
 ALIKE = 2.0  # times the noise of every second sample, and the reverse
 SHORTEST = 50  # samples of a trace
 WHITE = 0.8  # of the samples are independent: they are noise
-SURE = 5.0  # standard deviations of chance: a correlation beyond it is no chance
+SURE = 5.0  # over sqrt(n): a greater correlation of second differences is no chance; its deviation is about 1.4
 
 
 def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, float]:
@@ -37,16 +37,28 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
     if trace.depths is not None:
         return trace, 0.0
     shaking = _noise(trace) if noise is None else noise
-    if (
-        len(trace) < SHORTEST
-        or shaking <= ROUNDING * np.ptp(trace.depth)
-        or shaking * _stiffest(trace) <= FELT * noise_of(trace.force)
-    ):
+    if len(trace) < SHORTEST or not _matters(trace, shaking):
         return trace, 0.0
     quiet, variances = _quiet(trace.depth / shaking)
     if noise is None and _follows(trace, trace.depth - shaking * quiet):
         return trace, 0.0
     return replace(trace, depth=shaking * quiet, depths=shaking * (quiet + _draws(variances))), shaking
+
+
+def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
+    """Why a stated noise of the depth, m, is not taken out: the trace is too short. Nothing if it does not matter."""
+    if noise is None or len(trace) >= SHORTEST or not _matters(trace, noise):
+        return ()
+    return (
+        f"The stated noise of the depth, {noise:.3g} m, is not taken into account: that needs {SHORTEST} samples, and "
+        f"the trace has {len(trace)}. The intervals may be too narrow.",
+    )
+
+
+def _matters(trace: Trace, noise: float) -> bool:
+    """Whether this noise of the depth, m, adds force that shows beside the noise of the force."""
+    rounding = noise <= ROUNDING * np.ptp(trace.depth)
+    return not rounding and noise * _stiffest(trace) > FELT * noise_of(trace.force)
 
 
 def _noise(trace: Trace) -> float:

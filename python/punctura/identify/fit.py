@@ -73,7 +73,7 @@ class Misfit:
         errors = self.depth_errors(parameters)
         left = self.forces(parameters) - self.trace.force
         noise = spread(left[self.used])
-        weights = noise / np.sqrt(noise**2 + errors.var(axis=0)) if noise > 0 else np.ones(len(left))
+        weights = noise / np.sqrt(noise**2 + errors.var(axis=0, ddof=1)) if noise > 0 else np.ones(len(left))
         return Misfit(self.trace, parameters, self.used, self.zero, DepthError(errors.mean(axis=0), weights))
 
     def depth_errors(self, parameters: Parameters) -> Array:

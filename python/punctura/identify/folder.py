@@ -28,7 +28,7 @@ from punctura.files.whole_file import whole_file, write_whole
 from punctura.identify.identify import identify
 from punctura.identify.population import population
 from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
-from punctura.identify.rig import UNKNOWN, Rig
+from punctura.identify.rig import UNKNOWN, Rig, check
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
 
@@ -62,8 +62,10 @@ def identify_folder(
     """Identifies all traces of `folder` and writes `out`: a JSON file a trace, traces.parquet, population.parquet.
 
     A trace whose JSON file fits to the present file and task is not computed again. Returns the summary: how many were
-    identified, kept from before and failed, and the population. Raises OSError, ValueError for a folder without traces.
+    identified, kept from before and failed, and the population. Raises OSError, ValueError for a folder without traces
+    and for a rig that cannot be.
     """
+    check(task.rig, task.needle)
     paths, out = traces_in(Path(folder)), Path(out)
     if out.resolve() == Path(folder).resolve():
         raise ValueError(

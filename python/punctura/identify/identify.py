@@ -14,7 +14,7 @@ from punctura.files.names import as_text
 from punctura.identify.choose import choose
 from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
-from punctura.identify.depth_noise import with_quiet_depth
+from punctura.identify.depth_noise import noise_not_used, with_quiet_depth
 from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
@@ -25,7 +25,7 @@ from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.records import IdentificationRecord
-from punctura.identify.rig import UNKNOWN, Rig, RigValue
+from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned, weighted
 from punctura.identify.uncertainty import Uncertainty
@@ -119,8 +119,9 @@ def identify(
 
     membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. tell: gets a word
     about each step. rig: what is known of its sensors. Raises TraceError for a trace with a severe finding, and if no
-    fit succeeds; ModuleNotFoundError.
+    fit succeeds; ConfigurationError for a rig that cannot be; ModuleNotFoundError.
     """
+    check(rig, needle)
     severe = [finding for finding in trace.findings if finding.severe]
     if severe:
         raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
@@ -169,6 +170,7 @@ def _identified(
     effective = effective_samples(final.residuals, len(final.u))
     doubt = doubts(trace, segments, final, choice.current.extensions)
     said = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
+    said = (*noise_not_used(trace, rig.depth_noise), *said)
     said = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *said, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
 

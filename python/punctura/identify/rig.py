@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+from punctura import Needle
+from punctura.errors import ConfigurationError, Problem
 
 
 @dataclass(frozen=True)
@@ -15,6 +19,27 @@ class Rig:
 
 
 UNKNOWN = Rig()
+
+
+def check(rig: Rig, needle: Needle) -> None:
+    """Raises ConfigurationError with all that is wrong with a rig that has this needle."""
+    size, angle = needle.diameter, needle.tip_angle
+    bounds = {
+        "depth_noise": (math.inf, "a number of m, 0 or more"),
+        "diameter_tolerance": (size, f"0 or more, and less than the diameter, {size:.4g} m"),
+        "tip_angle_tolerance": (
+            min(angle, math.pi / 2 - angle),
+            f"0 or more, and leave the tip angle, {angle:.4g} rad, between 0 and pi/2",
+        ),
+    }
+    values = {name: getattr(rig, name) for name in bounds}
+    problems = [
+        Problem(f"rig.{name}", values[name], f"must be {words}")
+        for name, (most, words) in bounds.items()
+        if values[name] is not None and not 0 <= values[name] < most
+    ]
+    if problems:
+        raise ConfigurationError(problems)
 
 
 @dataclass(frozen=True)

@@ -48,8 +48,8 @@ def _of_depth(fit: Fit) -> Array:
         return np.zeros((fit.jacobian.shape[1],) * 2)
     errors = misfit.depth_errors(fit.parameters)
     errors = (misfit.depth_error.weights * (errors - errors.mean(axis=0)))[:, misfit.used]
-    shared = fit.jacobian.T @ errors.T / np.sqrt(len(errors))
-    own = fit.jacobian.T @ (errors.var(axis=0)[:, None] * fit.jacobian)
+    shared = fit.jacobian.T @ errors.T / np.sqrt(len(errors) - 1)
+    own = fit.jacobian.T @ (errors.var(axis=0, ddof=1)[:, None] * fit.jacobian)
     return np.asarray(shared @ shared.T - own)
 
 

@@ -151,6 +151,16 @@ def test_a_fit_with_weights_that_does_not_end_leaves_the_one_before(monkeypatch)
     assert len(identify(trace[::2], needle, 1).estimates) > 0
 
 
+def test_a_short_trace_says_that_a_stated_noise_is_not_used():
+    trace, needle, _ = by_machine(1)
+    short = trace[::25]
+    found = identify(short, needle, 1, rig=Rig(depth_noise=NOISE))
+    assert len(short) < 50 and found.rig == ()
+    assert [one for one in found.verdicts if "needs 50 samples, and the trace has 40" in one] == [found.verdicts[0]]
+    for rig in (Rig(), Rig(depth_noise=0.0), Rig(depth_noise=1e-9)):
+        assert not any("needs 50 samples" in one for one in identify(short, needle, 1, rig=rig).verdicts)
+
+
 def test_a_part_of_a_trace_has_that_part_of_the_draws():
     quiet, _ = with_quiet_depth(by_machine(1)[0])
     part = quiet[100:400:3]

@@ -8,7 +8,9 @@ import pytest
 import typer
 from punctura import Needle
 from punctura.cli._rig import rig_of
+from punctura.errors import ConfigurationError
 from punctura.identify import Rig, identify
+from punctura.identify.folder import Task, identify_folder
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
 THICKER = 1.04
@@ -40,6 +42,27 @@ def test_a_needle_that_is_stated_wrongly_is_doubted(factor):
     assert not any("the stated needle" in one for one in identify(trace, needle, 1).verdicts)
 
 
+@pytest.mark.parametrize("wrong", [-1.0, np.nan, np.inf, 2.0])
+def test_a_rig_that_cannot_be_is_named_before_the_fit(wrong, tmp_path):
+    trace, needle, _ = TOOL["random_trace"](2, TOOL["Conditions"](machine=True))
+    rig = Rig(-1e-6 if wrong == 2.0 else wrong, wrong * needle.diameter, wrong * needle.tip_angle)
+    for begin in (
+        lambda: identify(trace, needle, 1, lambda step: pytest.fail(step), rig),
+        lambda: identify_folder(tmp_path, tmp_path / "out", Task(needle, rig=rig)),
+    ):
+        with pytest.raises(ConfigurationError) as told:
+            begin()
+        names = [problem.path for problem in told.value.problems]
+        assert names == ["rig.depth_noise", "rig.diameter_tolerance", "rig.tip_angle_tolerance"]
+
+
+def test_a_tolerance_leaves_the_tip_sharp():
+    trace, _, _ = TOOL["random_trace"](2, TOOL["Conditions"](machine=True))
+    blunt = Needle(1e-3, np.radians(80))
+    with pytest.raises(ConfigurationError, match=r"the tip angle, 1.396 rad, between 0 and pi/2"):
+        identify(trace, blunt, 1, rig=Rig(tip_angle_tolerance=np.radians(15)))
+
+
 def tip_of(needle):
     return needle.diameter / np.tan(needle.tip_angle)
 
@@ -56,6 +79,11 @@ def test_the_option_states_tolerances():
 def test_a_wrong_statement_is_named(given):
     with pytest.raises(typer.BadParameter, match="depth_noise_um=10"):
         rig_of([given], "")
+
+
+def test_a_statement_without_a_value_is_shown_its_own_example():
+    with pytest.raises(typer.BadParameter, match="must be as depth_noise_um=10"):
+        rig_of(["depth_noise_um"], "")
 
 
 @pytest.mark.parametrize("given", ["diameter_mm=1.27+-0.7", "diameter_mm=1.27+-x", "diameter_m=1+-0.1"])
