@@ -66,8 +66,8 @@ def _noise(trace: Trace) -> float:
     if trace.time is None:
         return 0.0
     steps = np.diff(trace.time)
-    told = steps.max() < EVEN * steps.min() and 4 * HAND * float(np.mean(steps)) <= 1
-    return steady_noise(trace.depth) if told else 0.0
+    fast = steps.max() < EVEN * steps.min() and 4 * HAND * float(np.mean(steps)) <= 1
+    return steady_noise(trace.depth) if fast else 0.0
 
 
 def steady_noise(depth: Array) -> float:
@@ -122,12 +122,12 @@ def _of_hand(depth: Array) -> Array:
     angles = np.linspace(0, np.pi, 1000)
     seen = (2 - 2 * np.cos(angles)) ** 2  # what white noise of the depth is in its second differences
     grid = np.geomspace(LEAST, MOST, 120)
-    told = np.array([np.mean(one / (one + seen)) for one in grid])  # the share of a variance that the depth tells
+    shares = np.array([np.mean(one / (one + seen)) for one in grid])  # of a variance, what the depth shows of it
     near = np.ones(NEAR) / NEAR
     variances = np.full(len(depth) - 2, 0.25)
     for _ in range(ROUNDS):
         second = np.diff(_solved(variances, depth), 2)
-        share = np.interp(np.log(variances), np.log(grid), told)
+        share = np.interp(np.log(variances), np.log(grid), shares)
         variances = np.clip(np.convolve(second**2, near, "same") / np.convolve(share, near, "same"), LEAST, MOST)
     return variances
 
