@@ -98,28 +98,26 @@ def test_a_link_to_an_empty_file_is_not_followed(start, tmp_path):
     assert (tmp_path / "empty").exists()
 
 
-def contend(path, turns, won):
-    for _ in range(turns):
+def contend(path, wins):
+    while wins:  # a lost turn is repeated: a busy computer may hold the other process while it has the name
         try:
             file = AppendFile(path)  # empty, so that what it leaves is no obstacle
         except FileExistsError:
             continue
-        with won.get_lock():
-            won.value += 1
         assert file.change() is None, "two processes had the same name"
         file.close()
+        wins -= 1
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows removes no file that another process has open")
 def test_of_several_processes_that_take_over_a_name_one_has_it_at_a_time(tmp_path):
     context = multiprocessing.get_context("spawn")
-    won = context.Value("i", 0)
-    processes = [context.Process(target=contend, args=(tmp_path / "run.part", 200, won)) for _ in range(2)]
+    processes = [context.Process(target=contend, args=(tmp_path / "run.part", 100)) for _ in range(2)]
     for process in processes:
         process.start()
     for process in processes:
         process.join()
-    assert [process.exitcode for process in processes] == [0, 0] and won.value >= 200
+    assert [process.exitcode for process in processes] == [0, 0]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the present name of an open file")
