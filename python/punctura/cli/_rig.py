@@ -30,33 +30,27 @@ _TOLERANCES = {
 
 def rig_of(given: list[str] | None, needle: str) -> tuple[Rig, str]:
     """The rig of `depth_noise_um=10` and of a needle `diameter_mm=1.27+-0.03,tip_angle_deg=20`, and the needle without
-    its tolerances. Raises typer.BadParameter.
+    its tolerances. Raises typer.BadParameter; rig.check() has the bounds.
     """
     from punctura.identify.rig import Rig
 
     values = {}
     for name, text in pairs(given, "--rig", _EXAMPLE).items():
-        kind, factor = _STATED.get(name, ("", math.nan))
-        values[kind] = factor * _number(text)
-        if not 0 <= values[kind] < math.inf:
-            wanted = f"must be as {_EXAMPLE}, and not negative"
-            raise typer.BadParameter(f"{name}={text} {wanted}", param_hint="--rig")
+        values |= _value(_STATED, name, text, f"{name}={text} must be as {_EXAMPLE}", "--rig")
     sizes = []
     for part in needle.replace("\u00b1", "+-").split(","):
         size, sign, tolerance = part.partition("+-")
-        name, _, stated = size.partition("=")
         sizes.append(size)
         if sign:
-            kind, factor = _TOLERANCES.get(name.strip(), ("", math.nan))
-            values[kind] = factor * _number(tolerance)
-            if not 0 <= values[kind] < 0.5 * factor * _number(stated):
-                wanted = "must be as diameter_mm=1.27+-0.03, with a tolerance of less than half"
-                raise typer.BadParameter(f"{part.strip()} {wanted}", param_hint="--needle")
+            name = size.partition("=")[0].strip()
+            wanted = f"{part.strip()} must be as diameter_mm=1.27+-0.03"
+            values |= _value(_TOLERANCES, name, tolerance, wanted, "--needle")
     return Rig(**values), ",".join(sizes)
 
 
-def _number(text: str) -> float:
+def _value(kinds: dict[str, tuple[str, float]], name: str, text: str, wanted: str, option: str) -> dict[str, float]:
     try:
-        return float(text)
-    except ValueError:
-        return math.nan
+        kind, factor = kinds[name]
+        return {kind: factor * float(text)}
+    except (KeyError, ValueError):
+        raise typer.BadParameter(wanted, param_hint=option) from None
