@@ -13,29 +13,29 @@ from punctura.cli._notice import notice
 from punctura.cli._status import FAILED
 from punctura.defects import PATIENCE_S, explain
 from punctura.files.names import as_text, traces_in
+from punctura.identify.folder import Task
+from punctura.identify.rig import Rig, check
 from punctura.rivals.hold_out import another_trace, fitted, in_words, means, records, second_insertion
 from punctura.trace import Trace
 from punctura.trace.read import read_as
-from punctura.trace.reading import Reading
 
 
-def predict_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], as_json: bool) -> None:
+def predict_insertion(trace: Trace, needle: Needle, membranes: int | Literal["auto"], rig: Rig, as_json: bool) -> None:
     """Predicts the second insertion from the first one."""
-    found = records(second_insertion(trace, needle, membranes, notice))
+    found = records(second_insertion(trace, needle, membranes, notice, rig))
     what = f"{trace.source}: fitted to the first insertion; error of the second one"
     typer.echo(json.dumps({"hold_out": found}, indent=2) if as_json else in_words(what, found))
 
 
-def predict_folder(
-    folder: Path, needle: Needle, membranes: int | Literal["auto"], reading: Reading, as_json: bool
-) -> None:
+def predict_folder(folder: Path, task: Task, as_json: bool) -> None:
     """Predicts each trace of a folder from all others."""
+    check(task.rig, task.needle)
     all_of_them, failed = {}, {}
     for path in traces_in(folder):
         name = as_text(path.name)
         notice(name)
         try:
-            one = fitted(read_as(path, reading), needle, membranes, lambda _: None)
+            one = fitted(read_as(path, task.reading), task.needle, task.membranes, lambda _: None, task.rig)
             _ = one.contact
             all_of_them[name] = one
         except Exception as error:

@@ -78,7 +78,6 @@ def command(
     from punctura.identify import identify
     from punctura.identify.folder import Task
     from punctura.identify.report import report_html
-    from punctura.identify.rig import UNKNOWN
     from punctura.identify.specimens import write_specimens
     from punctura.scene.build import scene_text
     from punctura.trace.bags import is_bag
@@ -89,15 +88,14 @@ def command(
     if hold_out:
         from punctura.cli._hold_out import predict_folder, predict_insertion
 
-        if scene or report or plan or out or known_rig != UNKNOWN:
+        if scene or report or plan or out:
             raise typer.BadParameter(
-                "predicts only: leave out --scene, --report, --plan, --rig, --out and tolerances",
-                param_hint="--hold-out",
+                "predicts only: leave out --scene, --report, --plan and --out", param_hint="--hold-out"
             )
         if folder:
-            predict_folder(trace, _trace.needle_of(needle), count, reading, as_json)
+            predict_folder(trace, Task(_trace.needle_of(needle), count, reading, known_rig), as_json)
         else:
-            predict_insertion(*_trace.read_with_needle(trace, reading, needle, context), count, as_json)
+            predict_insertion(*_trace.read_with_needle(trace, reading, needle, context), count, known_rig, as_json)
         return
     if folder or out is not None:
         if scene or report or plan:

@@ -13,6 +13,7 @@ from punctura import Needle
 from punctura.identify import Identification, Parameters, identify
 from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.fit import Misfit
+from punctura.identify.rig import UNKNOWN, Rig
 from punctura.one_thread import one_thread
 from punctura.rivals.fit import RivalFit, fit_rival
 from punctura.rivals.kinds import kinds
@@ -56,6 +57,7 @@ class Fitted:
     segments: Segments
     found: Identification
     rivals: tuple[RivalFit, ...]
+    rig: Rig = UNKNOWN
 
     @property
     def contact(self) -> float:
@@ -65,16 +67,22 @@ class Fitted:
         return float(self.trace.depth[self.segments.contact])
 
 
-def fitted(trace: Trace, needle: Needle, membranes: int | Literal["auto"], progress: Callable[[str], None]) -> Fitted:
-    """Fits K06, as identify() chooses it, and all rivals. Raises TraceError."""
-    found = identify(trace, needle, membranes, progress)
+def fitted(
+    trace: Trace,
+    needle: Needle,
+    membranes: int | Literal["auto"],
+    progress: Callable[[str], None],
+    rig: Rig = UNKNOWN,
+) -> Fitted:
+    """Fits K06, as identify() chooses it, and all rivals. Raises TraceError; ConfigurationError, as identify()."""
+    found = identify(trace, needle, membranes, progress, rig)
     trace, segments = found.trace, found.segments  # without the noise of the depth, for all models
     fits = []
     with one_thread("punctura.rivals"):
         for kind in kinds().values():
             progress(kind.title)
             fits.append(fit_rival(kind, trace, segments))
-    return Fitted(trace, segments, found, tuple(fits))
+    return Fitted(trace, segments, found, tuple(fits), rig)
 
 
 def second_insertion(
@@ -82,10 +90,11 @@ def second_insertion(
     needle: Needle,
     membranes: int | Literal["auto"] = "auto",
     progress: Callable[[str], None] = lambda _: None,
+    rig: Rig = UNKNOWN,
 ) -> tuple[Prediction, ...]:
     """Fits the first insertion and predicts the second one at the same place, the best prediction first.
 
-    Raises TraceError for a trace with one insertion.
+    rig: of both insertions. Raises TraceError for a trace with one insertion; ConfigurationError, as identify().
     """
     held = trace.strokes == 1
     if not held.any():
@@ -94,7 +103,7 @@ def second_insertion(
             "Record one, or give a folder of traces"
         )
     first = trace[trace.strokes == 0]
-    known = fitted(replace(first, findings=()), needle, membranes, progress)
+    known = fitted(replace(first, findings=()), needle, membranes, progress, rig)
     both = trace[trace.strokes <= 1]
     later = both.strokes == 1
     return _ranked(trace.source, both.force[later], _forces(known, both, 0.0, later))
@@ -121,10 +130,11 @@ def another_trace(all_of_them: Mapping[str, Fitted]) -> tuple[Prediction, ...]:
 
 def _forces(known: Fitted, trace: Trace, shift: float, used: NDArray[np.bool_]) -> dict[str, tuple[str, Array]]:
     """Title and force (n,), N, of each model along a trace whose depths are greater by `shift`, m."""
-    quiet = with_quiet_depth(trace)[0]
-    at = replace(quiet, depth=quiet.depth - shift, depths=None)
+    quiet = with_quiet_depth(trace, known.rig.depth_noise)[0]
+    depths = None if quiet.depths is None else quiet.depths - shift
+    at = replace(quiet, depth=quiet.depth - shift, depths=depths)
     p: Parameters = known.found.parameters
-    found = {"k06": (_title(known.found), Misfit(at, p).forces(p)[used])}
+    found = {"k06": (_title(known.found), Misfit(at, p).with_depth_error(p).forces(p)[used])}
     path = path_of(at, segment(at))
     found |= {one.name: (one.title, resistance(one.layers, path)[used]) for one in known.rivals}
     return found | {REPEAT: ("no model: as measured before", _repeated(known.trace, at)[used])}

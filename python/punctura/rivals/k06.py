@@ -51,7 +51,7 @@ def fit_k06(trace: Trace, needle: Needle, known: Identification | None = None) -
 
 def _fit(trace: Trace, name: str, title: str, candidate: Candidate) -> K06Fit:
     parameters = candidate.fit.parameters
-    force = Misfit(trace, parameters).forces(parameters)
+    force = Misfit(trace, parameters).with_depth_error(parameters).forces(parameters)
     held_out = float("nan") if candidate.held_out is None else candidate.held_out
     plain = scene_of(parameters, title)
     scene = Scene(plain.name, plain.needle, plain.coupling, plain.membranes, SERVO)

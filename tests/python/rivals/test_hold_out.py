@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from punctura.identify import identify
+from punctura.identify import Rig, identify
 from punctura.identify.depth_noise import with_quiet_depth
 from punctura.rivals import Layer, Rival, better, compare_trace, fit_rival, hold_out
 from punctura.rivals.hold_out import REPEAT, another_trace, fitted, means, second_insertion
@@ -70,6 +70,21 @@ def test_rivals_get_the_depth_without_its_noise_as_k06_does():
     assert np.array_equal(predicted[kind.name][1], resistance(layers, path_of(quiet, segment(quiet))))
 
 
+def test_a_stated_noise_of_the_depth_holds_for_the_predicted_trace_and_for_the_table():
+    exact = trace(noise=NOISE, times=2, hold=0.3)[::5]  # at 40 Hz the noise is not estimated
+    shaken = replace(exact, depth=exact.depth + 10e-6 * np.random.default_rng(2).normal(size=len(exact)))
+    known = fitted(shaken, NEEDLE, 1, lambda _: None, Rig(depth_noise=10e-6))
+    force = known.found.fit.misfit.forces(known.found.parameters)
+    every = np.ones(len(shaken), bool)
+    shift = 1e-3
+    deeper = replace(shaken, depth=shaken.depth + shift)
+    for predicted in (hold_out._forces(known, shaken, 0.0, every), hold_out._forces(known, deeper, shift, every)):
+        assert predicted["k06"][1] == pytest.approx(force, abs=0.1 * NOISE)
+    table = compare_trace(shaken, ["k06"], needle=NEEDLE, identified=known.found, with_chatter=False)
+    assert table.row("k06").force == pytest.approx(force, abs=0.1 * NOISE)
+    assert np.abs(known.found.fit.misfit.depth_error.mean).max() > 0.5 * NOISE  # so the table can be wrong
+
+
 def test_one_insertion_cannot_be_held_out():
     with pytest.raises(TraceError, match="has one insertion"):
         second_insertion(made(), NEEDLE, 1)
@@ -102,7 +117,8 @@ def write(path, one):
 
 def test_the_command_predicts_an_insertion_and_a_folder(punctura, tmp_path):
     write(tmp_path / "twice.csv", made(times=2))
-    common = ("--needle", NEEDLE_WORDS, "--membranes", 1, "--hold-out")
+    needle = NEEDLE_WORDS.replace(",", "+-0.03,")
+    common = ("--needle", needle, "--membranes", 1, "--hold-out", "--rig", "depth_noise_um=0")
     done = punctura("identify", tmp_path / "twice.csv", *common, "--json")
     names = [one["name"] for one in json.loads(done.stdout)["hold_out"]]
     assert done.status == 0 and sorted(names) == ["exponential", "k06", REPEAT, "sign_of_velocity"]
@@ -114,6 +130,8 @@ def test_the_command_predicts_an_insertion_and_a_folder(punctura, tmp_path):
     done = punctura("identify", folder, *common)
     assert done.status == 1 and "Mean over 2 traces" in done.stdout and "broken.csv: " in done.stdout
     assert punctura("identify", folder, *common, "--out", tmp_path / "out").status == 2
+    done = punctura("identify", folder, *common[:-1], "depth_noise_um=-1")
+    assert done.status == 2 and "rig.depth_noise" in done.stderr and "broken.csv" not in done.stderr
 
 
 def test_a_rival_that_explains_the_trace_better_is_named_and_only_then(monkeypatch):
