@@ -38,3 +38,21 @@ def test_a_parameter_is_varied_and_saved_and_the_moment_and_the_curves_are_chose
     said = page.locator(".time-plots .only-read").inner_text()
     shown = "Math.abs(parseFloat(document.querySelector('.phases-when').textContent) - at)"
     page.wait_for_function(f"at => {shown} < 1.5e-3", arg=float(said.split()[0]))  # both are rounded to ms
+
+
+def test_a_second_comparison_waits_in_line_and_one_too_many_is_refused_with_a_sentence(page):
+    ready(page)
+    lab = tab(page, "Lab")
+    held = []
+    page.route("**/api/lab/compare*", lambda route: held.append(route))
+    for _ in range(4):
+        lab.get_by_role("button", name="Simulate").click()
+    expect(lab.get_by_role("alert").filter(has_text="3 computations are in line")).to_be_visible()
+    rows = lab.locator(".progress:visible")
+    expect(rows).to_have_count(3)
+    rows.nth(1).get_by_role("button", name="Cancel").click()
+    expect(rows).to_have_count(2)
+    for route in (held[0], held[2]):
+        route.continue_()
+    expect(page.locator("dialog.lab-result")).to_have_count(2)
+    expect(rows).to_have_count(0)

@@ -9,6 +9,8 @@ import { varyForm } from "./lab/vary.ts";
 import { needsStudio } from "./needs_studio.ts";
 import { wordsOf } from "./recordings/library.ts";
 
+const MOST_IN_LINE = 3; // of this page: a browser has six connections to a server, and the page needs some
+
 /** Identifies measured traces, compares recordings, and varies a parameter of the scene through simulated runs. */
 export const labPanel: Panel = (host, app) => {
   if (app.engine.studio) comparisons(host, app);
@@ -17,38 +19,37 @@ export const labPanel: Panel = (host, app) => {
 };
 
 const comparisons: Panel = (host, app) => {
-  const bar = element("progress", { max: 1, value: 0, "aria-label": "Progress of the computation" });
-  const words = element("span", { class: "quiet" });
-  const cancel = element("button", { type: "button", class: "small" }, "Cancel");
-  const progress = element("div", { class: "tools progress", role: "status", hidden: true }, bar, words, cancel);
+  const inLine = element("div"); // a row for each computation: the studio says how many come before it
   const trouble = element("p", { class: "error", role: "alert" });
-  let running: AbortController | null = null;
-  cancel.addEventListener("click", () => running?.abort());
 
+  /** The request goes out at once, also where others wait: the scene is that of this moment. */
   const start = async (job: Job, title: string): Promise<void> => {
-    if (running) return;
-    const stop = new AbortController();
-    running = stop;
     trouble.textContent = "";
-    progress.hidden = false;
-    bar.value = 0;
-    words.textContent = "computing…";
+    if (inLine.childElementCount >= MOST_IN_LINE) {
+      trouble.textContent = `${MOST_IN_LINE} computations are in line. Wait until one is done, or cancel one.`;
+      return;
+    }
+    const stop = new AbortController();
+    const bar = element("progress", { max: 1, value: 0, "aria-label": `Progress: ${title}` });
+    const words = element("span", { class: "quiet" }, `${title}: computing…`);
+    const cancel = element("button", { type: "button", class: "small", onclick: () => stop.abort() }, "Cancel");
+    const row = element("div", { class: "tools progress", role: "status" }, bar, words, cancel);
+    inLine.append(row);
     try {
       const report = (share: number, run: string): void => {
         bar.value = share;
-        words.textContent = run;
+        words.textContent = `${title}: ${run}`;
       };
       openComparison(app, job, title, await compute(app.api, job, report, stop.signal));
     } catch (error) {
-      if (!stop.signal.aborted) trouble.textContent = wordsOf(error);
+      if (!stop.signal.aborted) trouble.append(`${title}: ${wordsOf(error)} `);
     } finally {
-      running = null;
-      progress.hidden = true;
+      row.remove();
     }
   };
   const picked = pickRuns((names) => void start({ recordings: names }, `${names.length} recordings compared`));
   const vary = varyForm((job, title) => void start(job, title));
-  host.append(tracePart(app), picked.root, vary.root, progress, trouble);
+  host.append(tracePart(app), picked.root, vary.root, inLine, trouble);
 
   const refresh = async (): Promise<void> => {
     try {
