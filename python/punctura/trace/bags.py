@@ -61,7 +61,7 @@ def _joined(path: Path, topics: dict[str, list[dict[str, float]]]) -> Table:
     for topic, columns in held.items():
         for key, values in columns.items():
             shared = sum(key in others for others in held.values()) > 1
-            table[f"{topic} {key}" if shared else key] = np.interp(time, times[topic], values)
+            table[f"{topic} {key}" if shared or key == "data" else key] = np.interp(time, times[topic], values)
     return table
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from punctura.extras import optional
+from punctura.trace.heading import with_unit
 from punctura.trace.reading import Reading
 from punctura.trace.size import MOST_COLUMNS, check_size
 from punctura.trace.structured import table_of
@@ -42,11 +43,16 @@ def _numbers(group: Any) -> int:
     return total
 
 
+def _with_unit(name: str, item: Any) -> str:
+    unit = item.attrs.get("units", item.attrs.get("unit", ""))
+    return with_unit(name, unit.decode("utf-8", "replace") if isinstance(unit, bytes) else str(unit))
+
+
 def _held(item: Any) -> Any:
     """A group as a dictionary, a dataset as an array; None for one without numbers."""
     if hasattr(item, "items"):
         # #refs# has what cells of MATLAB refer to, _i_table an index of PyTables.
-        parts = {name: _held(part) for name, part in item.items() if name[0] not in "#_"}
+        parts = {_with_unit(name, part): _held(part) for name, part in item.items() if name[0] not in "#_"}
         lists = [part for part in parts.values() if isinstance(part, list) and not isinstance(part[0], dict)]
         if lists and len(lists) == len(parts) and len(set(map(len, lists))) == 1:  # an array of structures
             return [dict(zip(parts, values, strict=True)) for values in zip(*lists, strict=True)]

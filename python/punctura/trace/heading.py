@@ -86,7 +86,7 @@ def _are_units(cells: Sequence[str]) -> bool:
 def with_unit(name: str, unit: str) -> str:
     """A column's name with a unit that is stated elsewhere in the file, unless the name has one."""
     unit = unit_of(unit) or unit.strip().strip("()[]")
-    return f"{name} [{unit}]" if unit and not split_name(name)[1] else name
+    return f"{name} [{unit}]" if unit and not is_unit(split_name(name)[1]) else name
 
 
 def _empty(cell: Any) -> bool:

@@ -55,8 +55,12 @@ def lvm_lines(pieces: Pieces) -> Iterator[list[str]]:
 
 
 def _names(names: list[str], header: dict[str, list[str]]) -> list[str]:
-    """The names with their units, without the column of comments. Y_Unit_Label has a unit for each channel."""
-    names = names[: names.index("Comment")] if "Comment" in names else [name for name in names if name]
+    """The names with their units, without the column of comments behind them. Y_Unit_Label has one for each channel."""
+    names = [name for name in names if name and name != "Comment"]
+    others = [i for i, name in enumerate(names) if name != "X_Value"]
+    channels = _number(header, "Channels")
+    if channels < len(others):
+        names = names[: others[int(channels)]]  # the comments have a name in the language of the program
     units, channel = header.get("Y_Unit_Label", []), 0
     time = "s" if header.get("X_Dimension", ["Time"])[:1] in ([], [""], ["Time"]) else ""
     labelled = []

@@ -40,7 +40,8 @@ _PARTS = """standard estandar axial axiale axialer assiale assial normal normale
     prova traversa trascorso applicata cella
     試験 経過 クロスヘッド 圧縮 押込み 押し込み 挿入 穿刺
     值 値 试验 试驗 試驗 测试 測試 实验 经过 经历 运行 轴向 针 插入 压缩 横梁 采样 标准 標準"""
-_SHORT = """c tip tcp ee ft fts robot raw run ch of the in wrench pose header value field
+_SHORT = """c tip tcp ee ft fts robot raw run ch of the in wrench pose header value values data field
+    specimen probekorper eprouvette probeta provino
     de d du des la le del da di dell della do et 針 の"""
 _WORDS = set(_SHORT.split())
 _PART = re.compile("|".join(sorted(map(re.escape, _PARTS.split()), key=len, reverse=True)))

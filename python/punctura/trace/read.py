@@ -175,7 +175,8 @@ def _with_growing_time(held: dict[str, Array], found: list[Finding], needed: boo
     if back.any():
         severe = lost > len(time) // 10
         text = f"time goes back {int(back.sum())} times, first at sample {int(np.argmax(back)) + 1}"
-        found.append(Finding("time_goes_back", f"{text}; {lost} samples are left out", True, severe))
+        advice = ". If several specimens stand one below the other, save each as a file" if severe else ""
+        found.append(Finding("time_goes_back", f"{text}; {lost} samples are left out{advice}", True, severe))
     else:
         severe = lost > len(time) // 2  # a digitised trace often has two forces at a time; a coarse clock has many
         text = f"{lost} samples have the time of the sample before, first sample {row}"

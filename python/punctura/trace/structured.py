@@ -95,6 +95,10 @@ def _parts(where: str, name: str, value: Any, units: Mapping[str, Any]) -> Itera
         and all(str(key).isdigit() and not isinstance(inner, (dict, list)) for key, inner in value.items())
     ):
         value = list(value.values())  # a column with the numbers of its rows
+    if isinstance(value, dict) and isinstance(value.get("unit"), str):  # a column: {"unit": "mm", "values": [0, 1]}
+        lists = [inner for inner in value.values() if isinstance(inner, list)]
+        if len(lists) == 1:
+            value, units = lists[0], {name: value["unit"]}
     if isinstance(value, dict):
         stated = value.get("units")
         units = {**units, **stated} if isinstance(stated, dict) else units

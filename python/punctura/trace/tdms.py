@@ -67,10 +67,11 @@ def _table(path: Path, group: Any) -> Table:
     columns = {}
     for channel in channels:
         if len(channel) == rows:
-            values, unit = channel[:], str(channel.properties.get("unit_string", ""))
+            held = channel.properties
+            values, unit = channel[:], str(held.get("unit_string") or held.get("NI_UnitDescription", ""))
             if values.dtype.kind == "M":
                 values, unit = (values - values[0]) / np.timedelta64(1, "s"), "s"
             columns[with_unit(channel.name, unit)] = np.asarray(values, np.float64)
-            if step := float(channel.properties.get("wf_increment", 0.0)):
+            if step := float(held.get("wf_increment", 0.0)):
                 columns.setdefault("time [s]", step * np.arange(rows, dtype=np.float64))
     return Table(dict(zip(unique(columns), columns.values(), strict=True)))

@@ -23,6 +23,9 @@ def text_of(head, pattern, comma=False):
 
 FILES = {
     "units below the names": text_of(['"Time","Extension","Load"', '"(sec)","(mm)","(N)"'], '"{}","{}","{}"').encode(),
+    "a specimen and a gauge in the names": text_of(
+        ["Specimen 1 Time,Specimen 1 Displacement (Strain 1),Specimen 1 Force", "s,mm,N"], "{},{},{}"
+    ).encode(),
     "report above the table": text_of(
         ["Results Table 1", "Label,liver 3", "Speed,300,mm/min", "", "Time (sec),Extension (mm),Load (N)"], "{},{},{}"
     ).encode(),

@@ -237,6 +237,7 @@ Delta_X\t0{mark}005\t0{mark}005\t
         ("One", "X_Value\tDepth\tForce\tComment", "tdf"),
         ("No", "X_Value\tDepth\tForce\tComment", "df"),
         ("Multi", "X_Value\tDepth\tX_Value\tForce\tComment", "tdtf"),
+        ("One", "X_Value\tWeg\tKraft\tKommentar", "tdf"),
     ],
 )
 def test_a_labview_measurement_has_its_units_in_the_header(tmp_path, mark, columns, names, order):

@@ -73,6 +73,8 @@ def test_units_beside_the_columns_or_around_them(tmp_path):
     units = {"units": {"time": "s", "depth": "mm", "force": "N"}}
     check(read_trace(written(tmp_path / "a.json", {**units, "data": columns})))
     check(read_trace(written(tmp_path / "b.json", {"units": "SI", "data": columns | units})))
+    each = {name: {"unit": units["units"][name], "values": values} for name, values in columns.items()}
+    check(read_trace(written(tmp_path / "c.json", {"needle": {"unit": "mm", "diameter": 1.2}, "data": each})))
 
 
 def test_rows_may_begin_with_their_names(tmp_path):

@@ -59,6 +59,12 @@ def test_an_hdf5_file_is_as_one_object_with_others_in_it(tmp_path):
             file.create_dataset(name, data=values, compression="gzip")
         file["about"] = "a text"
     check(read_trace(tmp_path / "a.h5"))
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for name, values in COLUMNS.items():
+            role, _, unit = name.partition("_")
+            file[role] = values
+            file[role].attrs["units"] = unit
+    check(read_trace(tmp_path / "a.h5"))
     with h5py.File(tmp_path / "b.hdf5", "w") as file:
         for run in ("1", "2"):
             file[f"run/{run}"] = np.array(list(map(tuple, ROWS)), [(name, float) for name in COLUMNS])

@@ -21,11 +21,11 @@ def check(read, depth=2e-6):
     assert not read.findings
 
 
-def write_tdms(path, groups):
+def write_tdms(path, groups, key="unit_string"):
     """Channels with the units of their properties; the time is that of the waveform."""
     waveform = {"wf_increment": STEP, "wf_start_offset": 0.0, "wf_samples": 1}
     channels = [
-        ChannelObject(group, name, values, {"unit_string": unit} | waveform)
+        ChannelObject(group, name, values, {key: unit} | waveform)
         for group in groups
         for name, values, unit in (("Weg", MADE.depth * 1e3, "mm"), ("Kraft", MADE.force * 1e3, "mN"))
     ]
@@ -36,6 +36,8 @@ def write_tdms(path, groups):
 
 def test_a_tdms_file_has_units_and_a_time_of_its_own(tmp_path):
     write_tdms(tmp_path / "a.tdms", ["trial"])
+    check(read_trace(tmp_path / "a.tdms"))
+    write_tdms(tmp_path / "a.tdms", ["trial"], "NI_UnitDescription")
     check(read_trace(tmp_path / "a.tdms"))
     write_tdms(tmp_path / "b.tdms", ["1", "2"])
     with pytest.raises(TraceError, match="2 tables can be the trace: '1', '2'; choose one"):
@@ -82,11 +84,11 @@ def test_the_topics_of_a_bag_are_joined_on_the_times_of_the_faster_one(tmp_path)
     store = get_typestore(Stores.ROS2_HUMBLE)
     with rosbag2.Writer(tmp_path / "b", version=8) as writer:
         fill(writer, store, store.serialize_cdr, {})
-    stated = {"depth": "data"}, {"depth": "m", "force": "N"}
-    for path in (tmp_path / "a.bag", tmp_path / "b"):
-        check(read_trace(path, *stated), depth=STEP * 5e-3)  # at the turn
+    units = {"depth": "m", "force": "N"}
+    for path in (tmp_path / "a.bag", tmp_path / "b"):  # the topic names the only field of its messages
+        check(read_trace(path, None, units), depth=STEP * 5e-3)  # at the turn
     with pytest.raises(TraceError, match=r"unit of the force column 'wrench\.force\.z' is not stated"):
-        read_trace(tmp_path / "b", {"depth": "data"})
+        read_trace(tmp_path / "b")
     (tmp_path / "c.bag").write_text("none")
     with pytest.raises(TraceError, match=r"c\.bag"):
         read_trace(tmp_path / "c.bag")
