@@ -57,8 +57,8 @@ def score(
     typer.echo(f"{result.title}: {result.verdict}")
     for reason in result.reasons:
         typer.echo(f"  {reason}")
-    for heading, remarks in (("What went well", result.coaching.good), ("Next time", result.coaching.change)):
-        for remark in remarks:
+    for heading, remarks in (("Next time", result.coaching.change), ("What went well", result.coaching.good)):
+        for remark in remarks[:1]:
             typer.echo(f"  {heading}: {remark.text}")
     width = max(len(state(goal)) for goal in result.goals)
     for goal in result.goals:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import islice
 
 from punctura import Scene
 from punctura.events import Event
@@ -28,10 +27,12 @@ from punctura.exercise.seen import (
     MOST_REMARKS,
     PAUSES_S,
     PRESSED_S,
+    STEADILY,
     TREMOR_GOOD_M,
     TREMOR_OFF_M,
     Seen,
     Trace,
+    off_angle,
 )
 from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace
 
@@ -75,14 +76,8 @@ ORDER = (held_still, pushed_steadily, kept_the_line, right_angle)
 
 def wrong_angle(seen: Seen) -> Iterator[Remark]:
     angle = seen.metrics.entry_angle
-    if angle is None or abs(angle - seen.angle) < math.radians(ANGLE_OFF_DEG):
-        return
-    way = "flatter" if angle > seen.angle else "steeper"
-    text = (
-        f"You entered at {degrees(angle)}; {degrees(seen.angle)} are asked: hold the needle "
-        f"{degrees(abs(angle - seen.angle))} {way}."
-    )
-    yield Remark(about="angle", text=text, numbers={"angle_rad": angle, "asked_rad": seen.angle})
+    if angle is not None and abs(angle - seen.angle) >= math.radians(ANGLE_OFF_DEG):
+        yield from off_angle(angle, seen)
 
 
 def too_short(seen: Seen) -> Iterator[Remark]:
@@ -99,7 +94,7 @@ def too_short(seen: Seen) -> Iterator[Remark]:
     point_short = depth - trace.nearest
     if point_short > 0.05e-3:
         text = f"The point stayed {mm(point_short)} or more away from {space.name}: push on until {_sign(seen)}."
-        yield Remark(about="short", text=text, numbers={"short_m": point_short})
+        yield Remark(about="short", text=text, numbers={"short_m": point_short}, time=trace.nearest_at)
         return
     tip_short = depth - trace.tip_nearest
     if whole and tip_short > 0.05e-3:
@@ -124,7 +119,8 @@ def pressed(seen: Seen) -> Iterator[Remark]:
         f"{seen.space.name}: draw back as soon as "
         + ("the force grows again." if seen.after else f"you are {mm(seen.space.ends)} past the {seen.before}.")
     )
-    yield Remark(about="pressed", text=text, numbers={"pressed_s": trace.pressed_s, "pressed_m": trace.pressed_m})
+    numbers = {"pressed_s": trace.pressed_s, "pressed_m": trace.pressed_m}
+    yield Remark(about="pressed", text=text, numbers=numbers, time=trace.pressed_at)
 
 
 def left_the_space(seen: Seen) -> Iterator[Remark]:
@@ -133,7 +129,7 @@ def left_the_space(seen: Seen) -> Iterator[Remark]:
     longest = seen.metrics.longest_stay
     text = (
         f"You left {seen.space.name} {times(seen.stays - 1)} before you had held for {seen.hold_s:g} s; your "
-        f"longest stay was {tenths(longest)} s: stop, rest your hand, and only then count."
+        f"longest stay was {tenths(longest)} s: stop, keep the needle still, and only then count."
     )
     yield Remark(about="left", text=text, numbers={"stays": seen.stays, "longest_s": longest})
 
@@ -143,7 +139,7 @@ def trembled(seen: Seen) -> Iterator[Remark]:
     if hold is None:
         return
     if hold.tremor >= TREMOR_OFF_M:
-        text = f"The tip trembled by {hold.tremor * 1e3:.2f} mm (rms) while you held: rest your hand on the table."
+        text = f"The tip trembled by {hold.tremor * 1e3:.2f} mm (rms) while you held: keep the needle still."
         yield Remark(about="tremor", text=text, numbers={"tremor_m": hold.tremor, "held_s": hold.seconds})
     if hold.drift >= DRIFT_OFF_M:
         text = f"The tip drifted by {mm(hold.drift)} while you held for {tenths(hold.seconds)} s: hold the depth."
@@ -153,10 +149,7 @@ def trembled(seen: Seen) -> Iterator[Remark]:
 def paused(seen: Seen) -> Iterator[Remark]:
     count, seconds = seen.pauses
     if seconds >= PAUSES_S:
-        text = (
-            f"You stood still {times(count)} in the tissue on the way, for {tenths(seconds)} s together: push slowly "
-            "but without a pause."
-        )
+        text = f"You stood still {times(count)} in the tissue on the way, for {tenths(seconds)} s together: {STEADILY}."
         yield Remark(about="pauses", text=text, numbers={"pauses": count, "paused_s": seconds})
 
 
@@ -170,6 +163,9 @@ def went_aside(seen: Seen) -> Iterator[Remark]:
 
 FIRST = (wrong_angle, too_short, pressed, left_the_space)  # before what the goals advise
 LAST = (trembled, paused, went_aside)
+
+# Praise that a reader would take for the opposite of what is to change: subjects of both.
+CONTRADICTS = {"line": ("aside", "pauses"), "aside": ("line",), "left": ("tremor",), "speed": ("pauses",)}
 
 
 class Coach:
@@ -200,10 +196,10 @@ class Coach:
             self._space, space.behind, space.in_front_of or "", self._first, asked_angle(self._file),
             measures.metrics(), measures.first_touch, self._trace,
         )  # fmt: skip
-        return Coaching(
-            good=list(islice(self._good(seen), MOST_REMARKS)),
-            change=list(islice(self._change(seen, missed), MOST_REMARKS)),
-        )
+        change = list({one.about: one for one in reversed(list(self._change(seen, missed)))}.values())[::-1]
+        wrong = {about for one in change for about in (one.about, *CONTRADICTS.get(one.about, ()))}
+        good = [one for one in self._good(seen) if one.about not in wrong]
+        return Coaching(good=good[:MOST_REMARKS], change=change[:MOST_REMARKS])
 
     def _good(self, seen: Seen) -> Iterator[Remark]:
         for limit in self._limits:
@@ -214,8 +210,11 @@ class Coach:
 
     def _change(self, seen: Seen, missed: list[LimitJudge]) -> Iterator[Remark]:
         for judge in self._judges:
-            if judge in missed or isinstance(judge, Achievement):
+            if isinstance(judge, Achievement):
                 yield from judge.corrections(seen)
+            elif judge in missed and judge.missed is not None:
+                for remark in judge.corrections(seen):
+                    yield remark.model_copy(update={"time": judge.missed.time})
         for speak in FIRST:
             yield from speak(seen)
         for limit in self._limits:

@@ -21,6 +21,7 @@ class Remark(_Part):
     about: str  # what it is about, such as "stop"; a fixed word, for programs
     text: str  # the sentence
     numbers: dict[str, Finite] = {}  # SI, with the unit in the name
+    time: Finite | None = None  # s of the run: the worst moment of what is to change, if it was one moment
 
 
 class Coaching(_Part):

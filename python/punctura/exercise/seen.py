@@ -12,10 +12,12 @@ import numpy as np
 
 from punctura.events import Event
 from punctura.exercise.motion import PAUSE_SPEED, TICK_S
-from punctura.exercise.result import Metrics, Overshoot
+from punctura.exercise.quantities import degrees
+from punctura.exercise.result import Metrics, Overshoot, Remark
 from punctura.exercise.ticks import LATE_S, Flags, JudgedTicks, Moment, Numbers, TargetSpace
 
-MOST_REMARKS = 3  # of each sort
+MOST_REMARKS = 3  # of each sort that a result keeps; the page and the command show the first
+STEADILY = "push slowly but without a pause"
 
 REACTION_S = 0.2  # time in which a hand goes on before it can react to a pop
 BEFORE_S = 0.1  # length of the window before a pop, or before the decision, in which speed and force are measured
@@ -80,9 +82,11 @@ class Trace:
         self._parts: list[Samples] = []
         self.pushes: list[Push] = []  # one a pop
         self.nearest = -np.inf  # m, the largest distance of the point behind the membrane before the space
+        self.nearest_at: float | None = None  # s
         self.tip_nearest = -np.inf  # m, the same of the end of the slanted face
         self.pressed_s = 0.0  # time of the point behind the end of the space
         self.pressed_m = 0.0  # how far it was behind it
+        self.pressed_at: float | None = None  # s, when it was farthest
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         if len(ticks) == 0:
@@ -114,8 +118,10 @@ class Trace:
     def _depths(self, ticks: JudgedTicks) -> None:
         space = self._space
         held = ticks.inside[:, space.behind]
-        for name, depths in (("nearest", ticks.past), ("tip_nearest", ticks.tip_past)):
-            setattr(self, name, float(np.fmax(getattr(self, name), np.fmax.reduce(depths[:, space.behind]))))
+        past = np.nan_to_num(ticks.past[:, space.behind], nan=-np.inf)
+        if past.max() > self.nearest:
+            self.nearest, self.nearest_at = float(past.max()), float(ticks.time[past.argmax()])
+        self.tip_nearest = float(np.fmax(self.tip_nearest, np.fmax.reduce(ticks.tip_past[:, space.behind])))
         if not held.any():
             return
         beyond = np.full(len(ticks), -np.inf)
@@ -125,7 +131,8 @@ class Trace:
             beyond = np.fmax(beyond, ticks.past[:, space.behind] - space.ends)
         beyond = np.where(held, beyond, -np.inf)
         self.pressed_s += float((beyond > 0).sum()) / self._rate
-        self.pressed_m = max(self.pressed_m, float(beyond.max()))
+        if beyond.max() > self.pressed_m:
+            self.pressed_m, self.pressed_at = float(beyond.max()), float(ticks.time[beyond.argmax()])
 
     @property
     def last(self) -> Push:
@@ -186,6 +193,16 @@ def pauses_of(samples: Samples, until: float) -> Pauses:
     lengths = [float(time[end - 1] - time[start]) for start, end in _runs((speed < PAUSE_SPEED) & inside)]
     lengths = [length for length in lengths if length >= PAUSE_S]
     return Pauses(len(lengths), sum(lengths))
+
+
+def off_angle(angle: float, seen: Seen) -> Iterator[Remark]:
+    """What to change at the next entry, after one at this angle, rad."""
+    way = "flatter" if angle > seen.angle else "steeper"
+    text = (
+        f"You entered at {degrees(angle)}; {degrees(seen.angle)} are asked: hold the needle "
+        f"{degrees(abs(angle - seen.angle))} {way}."
+    )
+    yield Remark(about="angle", text=text, numbers={"angle_rad": angle, "asked_rad": seen.angle}, time=seen.first_touch)
 
 
 def _smooth(time: Numbers, tip: Numbers) -> tuple[Numbers, Numbers]:

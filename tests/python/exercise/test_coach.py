@@ -50,7 +50,7 @@ def test_a_hand_that_still_pushes_when_the_wall_gives_is_told_the_force_and_how_
     assert remark.numbers["distance_m"] == pytest.approx(3.7e-3, abs=2e-5)
     assert remark.text == (
         f"You were still pushing with {force:.2f} N when the skin gave way, and went 2.7 mm too far: "
-        "brace your hand earlier."
+        "go on in small steps when the resistance grows."
     )
 
 
@@ -207,6 +207,34 @@ def test_at_most_three_of_each_and_the_most_important_first(write):
     columns["direction"][:] = [0, -1, 0]
     said = coached(write, columns, STAY, *goals)
     assert [remark.about for remark in said.change] == ["through", "entries", "pauses"]
+
+
+BESIDE = goal("on_line", point_mm=[0, -6.7, 4], along=[1, 0, 0], within_mm=1)
+
+
+def test_no_praise_contradicts_what_is_to_change(write):
+    said = coached(write, way((-7, 5), (-7, 0, 3)), STAY, BESIDE)
+    assert said.change[0].text.startswith("The point was 4.0 mm beside the middle line")
+    assert about(said.good).keys() == {"angle"}  # straight, steady, and beside the vein
+    left = way((-6, 5), (-6, 0, 1.2), (-4, 5), (-6, 5), (-6, 0, 0.4))
+    said = coached(write, left, goal("stay", seconds=3))
+    assert "left" in about(said.change) and "tremor" not in about(said.good)
+
+
+LIMITS = [
+    (goal("no_pause", seconds=1.5), way((-1, 5), (-1, 0, 3), (-7, 5)), "pauses", 2.7),
+    (goal("depth", at_most_mm=1), way((-8, 5)), "depth", 2.24),  # 1 mm behind the wall of 0.4 mm at 4.81 mm
+    (goal("entries", at_most=1), way((-1, 5), (2, 5), (-7, 5)), "entries", 2.2),
+    (goal("entry_angle", angle_deg=87, within_deg=2), way((-7, 5)), "angle", 1.0),
+]
+
+
+@pytest.mark.parametrize(("limit", "position", "subject", "when"), LIMITS)
+def test_the_first_thing_to_change_is_what_decided_with_its_moment(write, limit, position, subject, when):
+    said = coached(write, position, STAY, limit)
+    assert said.change[0].about == subject
+    assert said.change[0].time == pytest.approx(when, abs=0.05)
+    assert len(about(said.change)) == len(said.change)  # each thing once
 
 
 def test_the_words_do_not_depend_on_how_ticks_are_cut(write):

@@ -1045,6 +1045,7 @@ export interface Remark {
   numbers: {
     [k: string]: number;
   };
+  time: number | null;
 }
 /**
  * A field of the present scene that can be varied. SI.

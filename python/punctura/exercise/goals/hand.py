@@ -14,7 +14,7 @@ from punctura.exercise.goals.goal import Course, Goal, LimitJudge, SoFar
 from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.quantities import speed
 from punctura.exercise.result import Remark
-from punctura.exercise.seen import Seen
+from punctura.exercise.seen import STEADILY, Seen, off_angle
 from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, TargetSpace, by, first_of
 
 ROUNDING_RAD = 1e-9
@@ -66,6 +66,10 @@ class AngleJudge(LimitJudge):
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         entered = math.degrees(self.entered or 0.0)
         return f"You entered at {entered:.0f} degrees; {self.asked_deg:g} are asked, within {self.within_deg:g}."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        if self.entered is not None:
+            yield from off_angle(self.entered, seen)
 
 
 class MostSpeed(Goal):
@@ -139,6 +143,10 @@ class PauseJudge(LimitJudge):
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"You stood still for {self.seconds:g} s before you reached {space.name}."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        text = f"You stood still for {self.seconds:g} s on the way to {seen.space.name}: {STEADILY}."
+        yield Remark(about="pauses", text=text, numbers={"paused_s": self.seconds})
 
 
 class PeakForce(Goal):

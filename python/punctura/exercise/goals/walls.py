@@ -19,6 +19,9 @@ from punctura.exercise.result import Remark
 from punctura.exercise.seen import FIRM_STOP, NEAR_STOP, REACTION_S, Seen
 from punctura.exercise.ticks import GONE_S, ROUNDING, Flags, JudgedTicks, Moment, TargetSpace, first_of, place_of
 
+# For a stylus, a mouse, keys and fingers alike.
+SMALL_STEPS = "go on in small steps when the resistance grows"
+
 
 class NeverPass(Goal):
     """The point never passes a membrane; with whole_tip, the whole bevel never does."""
@@ -136,7 +139,7 @@ class StopJudge(WindowJudge):
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return (
             f"You ran more than {self.within * 1e3:g} mm past the {self.membrane} when it gave way: "
-            "hold against the loss of resistance."
+            "stop as soon as the resistance is gone."
         )
 
     def never_measured(self, first: str) -> str:
@@ -160,7 +163,7 @@ class StopJudge(WindowJudge):
             if push.speed * REACTION_S >= one.distance / 2:
                 text = f"You moved at {speed(push.speed)} {too_far}: push more slowly when the resistance grows."
             else:
-                text = f"You were still pushing with {seen.newtons(push.force)} {too_far}: brace your hand earlier."
+                text = f"You were still pushing with {seen.newtons(push.force)} {too_far}: {SMALL_STEPS}."
             numbers = {
                 "speed_m_s": push.speed, "force_N": push.force, "distance_m": one.distance, "allowed_m": self.within,
             }  # fmt: skip
@@ -182,7 +185,7 @@ class StopJudge(WindowJudge):
                 text = (
                     f"You went {mm(one.distance)} past the {self.membrane} when it gave way; {mm(self.within)} are "
                     f"allowed: you were pushing with {seen.newtons(push.force)} at {speed(max(push.speed, 0.0))}, "
-                    "so brace your hand earlier."
+                    f"so {SMALL_STEPS}."
                 )
                 numbers = {"distance_m": one.distance, "allowed_m": self.within, "force_N": push.force}
                 yield Remark(about="stop", text=text, numbers=numbers)
@@ -220,6 +223,14 @@ class DepthJudge(LimitJudge):
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"The point went more than {self.at_most * 1e3:g} mm past the {self.behind}."
 
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        fast = max(0.0, seen.trace.last.speed)
+        text = (
+            f"You still moved in at {speed(fast)} when the point was {mm(self.at_most)} past the {self.behind}: stop "
+            "as soon as it gives way."
+        )
+        yield Remark(about="depth", text=text, numbers={"speed_m_s": fast, "allowed_m": self.at_most})
+
 
 class Entries(Goal):
     """The first membrane is entered at most this often."""
@@ -248,6 +259,9 @@ class EntriesJudge(LimitJudge):
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"You entered more than {self.at_most} time{'s' * (self.at_most > 1)}."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        yield from self.advice(seen)
 
     def advice(self, seen: Seen) -> Iterator[Remark]:
         again = seen.metrics.entries - 1

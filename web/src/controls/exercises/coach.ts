@@ -1,22 +1,23 @@
 import { unbroken } from "../../format.ts";
 import { element } from "../../panel.ts";
-import type { Remark, Result } from "../../wire/messages.ts";
+import type { Result } from "../../wire/messages.ts";
 
-/** What to change next time, and what went well. Empty if the coach has nothing to say. */
-export function coachPart({ coaching }: Pick<Result, "coaching">): HTMLElement[] {
-  const part = (kind: string, title: string, remarks: readonly Remark[]): HTMLElement[] =>
-    remarks.length === 0
-      ? []
-      : [
-          element(
-            "section",
-            { class: `coach ${kind}` },
-            element("h3", {}, title),
-            element("ul", {}, ...remarks.map(({ text }) => element("li", {}, unbroken(text)))),
-          ),
-        ];
+/**
+ * One thing to change next time, and one that went well. Empty if the coach has nothing to say. watch: shows the worst
+ * moment, at this time of the run (s).
+ */
+export function coachPart(
+  { coaching }: Pick<Result, "coaching">,
+  watch?: (time: number) => HTMLElement,
+): HTMLElement[] {
+  const [change, good] = [coaching.change[0], coaching.good[0]];
+  const when = change?.time ?? null;
+  const part = (kind: string, title: string, text: string, ...more: HTMLElement[]): HTMLElement =>
+    element("section", { class: `coach ${kind}` }, element("h3", {}, title), element("p", {}, unbroken(text)), ...more);
   return [
-    ...part("change", "What to change next time", coaching.change),
-    ...part("good", "What went well", coaching.good),
+    ...(change
+      ? [part("change", "What to change next time", change.text, ...(watch && when !== null ? [watch(when)] : []))]
+      : []),
+    ...(good ? [part("good", "What went well", good.text)] : []),
   ];
 }
