@@ -14,7 +14,7 @@ enum class Fault : std::uint8_t {
   stale_sample,      ///< the device repeated the same sample for too long
   missed_deadline,   ///< the tick came too late, or the computer slept
   clock,             ///< the time went back
-  non_finite_force,  ///< the model computed NaN or infinity: a defect, please report it
+  non_finite_force,  ///< the model computed NaN or infinity: a defect of its law
   device,            ///< the back-end reported a fault
   thumb,             ///< the device under the thumb has a fault or is silent
 };
@@ -38,7 +38,8 @@ constexpr const char* describe(Fault fault) noexcept {
              "close programs that keep the processor busy, keep the computer awake, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";
     case Fault::non_finite_force:
-      return "the model gave a force that is not a number: please report the scene and the recording";
+      return "the model gave a force or a band that is not a number: "
+             "correct the law if it is your own; otherwise please report the scene and the recording";
     case Fault::device: return "the device reported a fault of its own";
     case Fault::thumb:
       return "the device under the thumb has a fault of its own or sends nothing: check its connection, then reset";

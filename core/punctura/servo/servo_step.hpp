@@ -125,7 +125,7 @@ class ServoGuard {
     if (fault_ == Fault::none) {
       model_force = model.step(to_vector(sample.position).template cast<Scalar>(),
                                to_vector(sample.axis).template cast<Scalar>().stableNormalized());
-      if (!model_force.allFinite() ||
+      if (!model_force.allFinite() || !bands_are_finite(model) ||
           (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), model))))
         fault_ = Fault::non_finite_force;
     }
@@ -187,6 +187,19 @@ class ServoGuard {
   }
 
  private:
+  /// Whether each band is finite. Where a law of the user's own gives NaN, a proxy holds the needle with its coupling,
+  /// and the force stays finite. check() has seen the numbers of a scene's own laws.
+  template <typename Insertion>
+  bool bands_are_finite([[maybe_unused]] const Insertion& model) const noexcept {
+    if constexpr (std::is_same_v<Insertion, BasicInsertion<Scalar>>) return true;
+    Scalar sum = 0;  // NaN if a band is not finite
+    for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
+      const auto& band = model.tick(i).band;
+      sum += 0 * band.lower + 0 * band.upper;
+    }
+    return sum == 0;
+  }
+
   /// The plunger's force on the thumb, scaled, and faded as the needle's force. Call it before faded().
   Scalar faded_thumb() noexcept {
     const Scalar wanted = syringe_ ? force_scale_ * syringe_->plunger.force() : Scalar(0);

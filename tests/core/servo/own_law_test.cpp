@@ -1,6 +1,8 @@
 // The whole servo step, with gate and limits, with custom laws.
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "../support/allocations.hpp"
 #include "../support/cut_law.hpp"
 #include "../support/paper_scene.hpp"
@@ -131,6 +133,40 @@ TEST_CASE("the peak limit acts on the force of a custom law") {
   CHECK(last.model_force[1] > 1);
   CHECK(std::hypot(last.force[0], last.force[1], last.force[2]) == doctest::Approx(0.5));
   CHECK(last.limits.peak > 0);
+}
+
+namespace {
+/// After 1 s, one edge or both are no longer a number.
+struct FailingLaw {
+  using Scalar = double;
+  struct Memory {
+    double time;
+  };
+  Band<double> then;
+
+  PiecewiseBand<double, 2> pieces(double = 1, const Memory& memory = {}) const noexcept {
+    const Band<double> band = memory.time > 1 ? then : Band<double>{-0.3, 0.3};
+    return {{0}, {{{}, {0, {band.lower}, {band.upper}}}}};
+  }
+  bool advance(Memory& memory, double, double dt) const noexcept { return memory.time += dt, true; }
+};
+}  // namespace
+
+TEST_CASE("a law whose band is no longer a number is a fault, and the coupling does not hold the needle") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  Scene scene = paper_scene(1e-3);
+  for (const Solver solver : {Solver::paper, Solver::exact})
+    for (const Band<double> then : {Band<double>{nan, nan}, {nan, 0.3}, {-0.3, nan}, {-inf, inf}}) {
+      scene.servo.solver = solver;
+      auto step = build<double>(scene, [&](auto&&...) { return FailingLaw{then}; });
+      step.arm();
+      std::uint64_t k = 0;
+      double largest = 0;
+      for (; k < 2400; ++k)
+        largest = std::max(largest, step.step(reading(k, 2e-3 - 10e-3 * static_cast<double>(k) / 1600)).force[1]);
+      CHECK(largest == doctest::Approx(0.3));
+      CHECK(step.fault() == Fault::non_finite_force);
+    }
 }
 
 TEST_CASE("try_build() returns the problems of scene and limits, for a custom law and for K06's law") {
