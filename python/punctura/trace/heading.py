@@ -8,6 +8,7 @@ from typing import Any
 
 from punctura.trace.clock import is_clock
 from punctura.trace.decimals import Decimal, number
+from punctura.trace.names import role_named
 from punctura.trace.units import is_unit, split_cell, split_name, unit_of
 
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
@@ -36,9 +37,17 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
         if good and (i + 1 == len(full) or full[i + 1]):
             while i > 0 and _has_gaps(rows[i - 1], width, decimal):
                 i -= 1
-            return i
+            below = next((j for j in range(i, min(i + 3, len(rows))) if not _is_heading(rows[j])), i)
+            return below  # i, if each row has texts such as units
     bare = [[split_cell(cell)[0] if isinstance(cell, str) else cell for cell in row] for row in rows]
     return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
+
+
+def _is_heading(row: Row) -> bool:
+    """Whether texts name two of the columns, or two units. Numbers may stand beside them, such as those of formulas."""
+    texts = [cell for cell in row if isinstance(cell, str) and not is_number(cell)]
+    roles = {role_named(split_name(text)[0]) for text in texts} - {""}
+    return len(roles) > 1 or sum(map(is_unit, texts)) > 1
 
 
 def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:
@@ -69,12 +78,13 @@ def unique(names: Iterable[str]) -> list[str]:
 
 
 def _texts(row: Row, width: int, least: int) -> list[str] | None:
-    """The cells as texts if they can be names: as many as columns, some text, no number."""
-    cells = ["" if cell is None else str(cell).strip() for cell in row]
+    """The cells as texts if they can be names: as many as columns, some text, no number unless it is a heading."""
+    heading = _is_heading(row)
+    cells = ["" if cell is None or (heading and is_number(cell)) else str(cell).strip() for cell in row]
     cells += [""] * (width - len(cells) if len(cells) >= least else 0)
     while len(cells) > width and not cells[-1]:
         cells.pop()
-    named = len(cells) == width and any(cells) and not any(is_number(cell) for cell in row)
+    named = len(cells) == width and any(cells) and (heading or not any(is_number(cell) for cell in row))
     return cells if named else None
 
 

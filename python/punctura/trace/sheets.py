@@ -31,6 +31,8 @@ def wanted_sheet(path: Path, names: Sequence[str], sheet: str) -> str:
 def only_trace(path: Path, tables: Mapping[str, Table], reading: Reading) -> Table:
     """The one table that can be a trace; else the one table that there is. Raises SheetError if it is not clear."""
     traces = [name for name, table in tables.items() if is_trace(table, reading)] or list(tables)
+    timed = [name for name in traces if candidates("time", list(tables[name]))]
+    traces = timed or traces  # a table of results has a force and a way of each specimen, and no time
     if len(traces) == 1:
         return tables[traces[0]]
     if not traces:

@@ -80,6 +80,9 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     mark = decimal or decimal_in(cell for row in rows[-LOOKED_AT:] for cell in row if isinstance(cell, str))
     first = first_row(rows, width, mark)
     names = column_names(rows[:first], width) if first < len(rows) else []
+    headed = [i for i, cell in enumerate(rows[first - 1]) if isinstance(cell, str)] if 0 < first < len(rows) else []
+    while headed and all(rows[-1][i] in (None, "") for i in headed):  # what was computed beside the table is longer
+        rows.pop()
     cells = [[row[i] for row in rows[first:]] for i in range(width)]
     table = Table()
     for i, name in enumerate(names):

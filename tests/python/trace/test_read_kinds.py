@@ -19,25 +19,30 @@ def check(read):
     assert read.time == pytest.approx(MADE.time, abs=1e-6)
 
 
-def workbook(path, specimens):
+def workbook(path, specimens, beside=False):
     """As testXpert writes it: parameters, results, statistics, then a sheet for each specimen."""
     book = Workbook()
     book.active.title = "Paramètres"
     book.active.append(["Opérateur", None, "x"])
     for sheet in ("Résultats", "Statistiques"):
         book.create_sheet(sheet)
-        for row in ([None, "Désignation", "Fmax"], [None, None, "N"], ["A", 1, 0.87], ["B", 2, 0.9]):
+        results = [[name, name, 0.87 + 0.01 * i, 5.3] for i, name in enumerate("ABCDEF")]
+        for row in ([None, "Désignation", "Fmax", "dL(Fmax)"], [None, None, "N", "mm"], *results):
             book[sheet].append(row)
     for name in specimens:
         book.create_sheet(name)
         for row in ([name] * 3, ["Temps d'essai", "Course standard", "Force standard"], ["s", "mm", "N"], *ROWS):
             book[name].append(row)
+        for row in (2, 3, 4, 9, 2 * len(ROWS)) if beside else ():  # what a user has computed beside the numbers
+            book[name].cell(row, 6, 20)
+            book[name].cell(row, 7, 80)
     book.save(path)
 
 
 def test_the_sheet_of_the_only_specimen_is_the_trace(tmp_path):
-    workbook(tmp_path / "a.xlsx", ["A"])
-    check(read_trace(tmp_path / "a.xlsx"))
+    for beside in (False, True):
+        workbook(tmp_path / "a.xlsx", ["A"], beside)
+        check(read_trace(tmp_path / "a.xlsx"))
 
 
 def test_one_of_several_specimens_is_chosen_or_all_are_a_folder(tmp_path):
