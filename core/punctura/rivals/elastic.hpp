@@ -76,6 +76,18 @@ struct BehindPuncture {
   }
 };
 
+/// Elastic to the puncture, with the force R::elastic(depth, velocity), and friction alone behind it.
+template <typename R>
+struct ElasticToPuncture : BehindPuncture {
+  using State = PuncturedState;
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    if (!state.punctured && depth < puncture) return static_cast<const R&>(*this).elastic(depth, velocity);
+    state.punctured = true;
+    return slide(state, depth, velocity);
+  }
+};
+
 /// Joins the numbers of the elastic part and those behind the puncture.
 template <typename Number, std::size_t n, std::size_t m>
 constexpr std::array<Number, n + m> joined(const std::array<Number, n>& a, const std::array<Number, m>& b) noexcept {
@@ -86,7 +98,7 @@ constexpr std::array<Number, n + m> joined(const std::array<Number, n>& a, const
 }
 
 /// f = k z + b v to the puncture, never less than 0; friction behind it. Constant k and b for a layer.
-struct KelvinVoigt : BehindPuncture {
+struct KelvinVoigt : ElasticToPuncture<KelvinVoigt> {
   static constexpr const char* name = "kelvin_voigt";
   static constexpr const char* title = "Kelvin-Voigt (Barbe 2007)";
   static constexpr const char* source = "Barbe et al., Int. J. Robotics Research 26(11-12), 2007";
@@ -102,18 +114,14 @@ struct KelvinVoigt : BehindPuncture {
         behind<KelvinVoigt>());
   }
 
-  using State = PuncturedState;
-
-  double resistance(State& state, double depth, double velocity, double) const noexcept {
-    if (!state.punctured && depth < puncture) return std::max(0.0, stiffness * depth + damping * velocity);
-    state.punctured = true;
-    return slide(state, depth, velocity);
+  double elastic(double depth, double velocity) const noexcept {
+    return std::max(0.0, stiffness * depth + damping * velocity);
   }
 };
 static_assert(Punctures<KelvinVoigt>);
 
 /// f = k z^n (1 + a v) to the puncture, never less than 0; friction behind it.
-struct HuntCrossley : BehindPuncture {
+struct HuntCrossley : ElasticToPuncture<HuntCrossley> {
   static constexpr const char* name = "hunt_crossley";
   static constexpr const char* title = "Hunt-Crossley";
   static constexpr const char* source =
@@ -133,19 +141,14 @@ struct HuntCrossley : BehindPuncture {
         behind<HuntCrossley>());
   }
 
-  using State = PuncturedState;
-
-  double resistance(State& state, double depth, double velocity, double) const noexcept {
-    if (!state.punctured && depth < puncture)
-      return peak * std::pow(depth / puncture, exponent) * std::max(0.0, 1 + damping * velocity);
-    state.punctured = true;
-    return slide(state, depth, velocity);
+  double elastic(double depth, double velocity) const noexcept {
+    return peak * std::pow(depth / puncture, exponent) * std::max(0.0, 1 + damping * velocity);
   }
 };
 static_assert(Punctures<HuntCrossley>);
 
 /// f = f0 (exp(b z) - 1) to the puncture, as Maurin et al. 2004 fitted it to punctures in vivo; friction behind it.
-struct Exponential : BehindPuncture {
+struct Exponential : ElasticToPuncture<Exponential> {
   static constexpr const char* name = "exponential";
   static constexpr const char* title = "exponential to puncture (Maurin 2004)";
   static constexpr const char* source =
@@ -161,13 +164,7 @@ struct Exponential : BehindPuncture {
                   behind<Exponential>());
   }
 
-  using State = PuncturedState;
-
-  double resistance(State& state, double depth, double velocity, double) const noexcept {
-    if (!state.punctured && depth < puncture) return scale * std::expm1(std::min(growth * depth, 50.0));
-    state.punctured = true;
-    return slide(state, depth, velocity);
-  }
+  double elastic(double depth, double) const noexcept { return scale * std::expm1(std::min(growth * depth, 50.0)); }
 };
 static_assert(Punctures<Exponential>);
 
