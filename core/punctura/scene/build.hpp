@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "punctura/scene/check.hpp"
+#include "punctura/scene/check_law.hpp"
 #include "punctura/scene/model.hpp"
 #include "punctura/servo/force_scale.hpp"
 #include "punctura/servo/servo_step.hpp"
@@ -58,15 +59,23 @@ concept GivesLaws = std::invocable<LawOf, const BasicNeedle<Scalar>&, const Basi
 ///
 /// law_of(needle, membrane, i) returns the law of each membrane, in place of the scene's. needle and membrane are in
 /// Scalar. i is the number of the membrane in the scene. The coupling is K06's. The result is empty if the scene has
-/// problems. They are added to `problems`.
+/// problems, or a law has a flaw (flaw_of()). They are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
   auto found = check(scene);
   if (!scene.relaxation.empty())
     found.push_back({"coupling.relaxation", static_cast<double>(scene.relaxation.size()),
                      "with laws of your own, build an InsertionOf with a RelaxingCoupling yourself"});
-  return detail::if_good(
+  auto made = detail::if_good(
       found, problems, [&] { return detail::insertion_of<Scalar>(scene, detail::coupling_of<Scalar>(scene), law_of); });
+  bool flawed = false;
+  for (std::size_t i = 0; made && i < made->size(); ++i) {
+    const std::string flaw = flaw_of(made->proxies()[i].params().law.pieces(1));
+    flawed = flawed || !flaw.empty();
+    if (!flaw.empty()) problems.push_back({"membrane[" + std::to_string(i) + "]", nothing, "the law: " + flaw});
+  }
+  if (flawed) made.reset();
+  return made;
 }
 /// Builds the model of a scene with the laws of its membranes.
 template <typename Scalar = double>

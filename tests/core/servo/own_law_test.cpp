@@ -5,6 +5,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/cut_law.hpp"
+#include "../support/given_law.hpp"
 #include "../support/paper_scene.hpp"
 #include "punctura/proxy/mixed_law.hpp"
 #include "punctura/scene/build.hpp"
@@ -179,4 +180,34 @@ TEST_CASE("try_build() returns the problems of scene and limits, for a custom la
   CHECK(problems[0].path == "membrane[0].stiffness");
   CHECK(problems[1].path == "limits.max_force");
   CHECK_THROWS_AS(build<double>(scene, own_law), SceneError);
+}
+
+TEST_CASE("a law that is none is a problem of the scene, with its membrane and the depth") {
+  using Table = PiecewiseBand<double, 3>;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto problem_of = [](const Table& table) {
+    std::vector<Problem> problems;
+    auto made = try_build<double>(paper_scene(1e-3), problems, [&](auto&&...) { return GivenLaw<3>{table}; });
+    CHECK(made.has_value() == problems.empty());
+    return problems.empty() ? std::string() : line_of(problems.at(0));
+  };
+  const BandPiece<double> good{0, {-1, 2}, {1, -2}}, level{0, {-1}, {1}};
+  CHECK(problem_of({{0, 1e-3}, {{{}, good, level}}}).empty());
+  CHECK(problem_of({{0, std::numeric_limits<double>::infinity()}, {{{}, level, level}}}).empty());
+  const auto faulty = [&](const Table& table, const char* words) {
+    const std::string line = problem_of(table);
+    CAPTURE(line);
+    CHECK(line.starts_with("membrane[0]: the law: its "));
+    CHECK(line.find(words) != std::string::npos);
+  };
+  faulty({{0, 1e-3}, {{level, good, level}}}, "0 in front of the first break");
+  faulty({{0, 1e-3}, {{{}, level, good}}}, "constant behind the last break");
+  faulty({{-1e-3, 1e-3}, {{{}, good, level}}}, "break 0 must be at 0 m or deeper");
+  faulty({{2e-3, 1e-3}, {{{}, good, level}}}, "break 1 must be at 0.002 m or deeper");
+  faulty({{0, nan}, {{{}, good, level}}}, "break 1 must be at 0 m");
+  faulty({{0, 1e-3}, {{{}, {0, {1}, {-1}}, level}}}, "at the depth 0 m is from 1 N to -1 N");
+  faulty({{0, 1e-3}, {{{}, {0, {-1, 4000}, {1}}, level}}}, "at the depth 0.001 m is from 3 N to 1 N");
+  faulty({{0, 2e-3}, {{{}, {0, {-1, 4000, -2e6}, {0}}, level}}}, "at the depth 0.001 m is from 1 N to 0 N");
+  faulty({{0, 1e-3}, {{{}, good, {0, {nan}, {1}}}}}, "both must be finite");
+  faulty({{0, 1e-3}, {{{}, {0, {-1}, {1, nan}}, level}}}, "both must be finite");
 }

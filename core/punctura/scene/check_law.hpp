@@ -1,0 +1,45 @@
+// Whether a law of the user's own fulfils what Law asks of its pieces, for an untouched membrane, along the normal.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "punctura/model/law.hpp"
+#include "punctura/model/validity.hpp"
+
+namespace punctura {
+
+/// What is wrong with the pieces of a law, as a sentence; empty if nothing is.
+template <typename Pieces>
+std::string flaw_of(const Pieces& pieces) {
+  const auto level = [](const auto& edge) { return edge.c1 == 0 && edge.c2 == 0; };
+  const auto& front = pieces.piece(0);
+  const auto& back = pieces.piece(pieces.last());
+  if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0)
+    return "its band must be 0 in front of the first break";
+  if (!level(back.lower) || !level(back.upper)) return "its edges must be constant behind the last break";
+  double from = 0;
+  for (std::size_t i = 1; i <= pieces.last() && std::isfinite(from); ++i) {
+    const auto start = static_cast<double>(pieces.end(i - 1));
+    if (!(start >= from))
+      return "its break " + std::to_string(i - 1) + " must be at " + decimal_text(from) + " m or deeper";
+    from = start;
+    const auto& piece = pieces.piece(i);
+    const double to = i < pieces.last() ? static_cast<double>(pieces.end(i)) : from;
+    const auto width = piece.upper.minus(1, piece.lower);
+    const auto turn =
+        static_cast<double>(piece.origin - width.c1 / (2 * width.c2));  // NaN or infinity if it is straight
+    for (const double depth : {from, to, turn > from && turn < to ? turn : from}) {
+      if (!std::isfinite(depth)) continue;
+      const auto [lower, upper] = piece.band(static_cast<typename Pieces::Scalar>(depth));
+      const auto rounding = 1e-6 * (std::abs(lower) + std::abs(upper));
+      if (!std::isfinite(rounding) || lower > upper + rounding)
+        return "its band at the depth " + decimal_text(depth) + " m is from " + decimal_text(lower) + " N to " +
+               decimal_text(upper) + " N; the lower edge must not be above the upper one, and both must be finite";
+    }
+  }
+  return {};
+}
+
+}  // namespace punctura
