@@ -129,6 +129,13 @@ struct MemoryOf<L> {
   using type = typename L::Memory;
 };
 
+/// Lists the parameters of a law: its untouched pieces, and what the law itself adds in describe(), such as the time
+/// constant of its memory.
+void describe_law(const auto& law, const auto& pieces, auto& parameters) {
+  pieces.describe(parameters);
+  if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
+}
+
 /// The type of a law's pieces.
 template <Law L>
 using PiecesOf = std::remove_cvref_t<decltype(std::declval<const L&>().pieces())>;

@@ -31,7 +31,7 @@ struct SpaceParams {
   C coupling;
 
   void describe(auto& parameters) const {
-    law.pieces(typename L::Scalar(1)).describe(parameters);
+    describe_law(law, law.pieces(typename L::Scalar(1)), parameters);
     parameters.numbers(a, n);
     coupling.describe(parameters);
   }

@@ -138,6 +138,12 @@ class MixedLaw {
     });
   }
 
+  void describe(auto& parameters) const {
+    visit([&]<std::size_t>(const auto& law) {
+      if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
+    });
+  }
+
   /// Calls visitor<i>(law) for the law in use. i is its index in Laws.
   template <typename Visitor>
   constexpr void visit(Visitor&& visitor) const noexcept {

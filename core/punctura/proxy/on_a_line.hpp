@@ -20,7 +20,7 @@ struct LineParams {
   C coupling;
 
   void describe(auto& parameters) const {
-    law.pieces().describe(parameters);
+    describe_law(law, law.pieces(), parameters);
     coupling.describe(parameters);
   }
 };

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "../support/cut_law.hpp"
 #include "../support/paper_scene.hpp"
 #include "../support/random_motion.hpp"
 #include "../support/tick.hpp"
@@ -150,6 +151,33 @@ TEST_CASE("the memory of each law in a MixedLaw scene is saved") {
     for (std::size_t k = 1000; k < 2000; ++k)
       REQUIRE(other.step({0, -depths[k], 0}, {0, -1, 0}) == first.step({0, -depths[k], 0}, {0, -1, 0}));
   }
+}
+
+namespace {
+/// A number that the untouched pieces do not show.
+struct SlowLaw : CutLaw {
+  double time_constant;
+  void describe(auto& parameters) const { parameters.numbers(time_constant); }
+};
+}  // namespace
+
+TEST_CASE("a state belongs to the numbers that a custom law describes, alone and in a MixedLaw") {
+  const auto own = [](double time_constant) {
+    return Proxy3d(SlowLaw{{}, time_constant}, {}, {0, -1, 0}, Coupling{400, 1}, T);
+  };
+  const auto mixed = [](double time_constant) {
+    using Mixed = MixedLaw<ThickLaw, SlowLaw>;
+    return Proxy3d(Mixed(SlowLaw{{}, time_constant}), {}, {0, -1, 0}, Coupling{400, 1}, T);
+  };
+  const auto line = [](double time_constant) { return Proxy1d(SlowLaw{{}, time_constant}, Coupling{400, 1}, T); };
+  const auto check = [](const auto& made) {
+    auto same = made(1.0), other = made(2.0);
+    CHECK(load_state(same, save_state(made(1.0))));
+    CHECK(!load_state(other, save_state(made(1.0))));
+  };
+  check(own);
+  check(mixed);
+  check(line);
 }
 
 TEST_CASE("after a reset the state equals that of a new object") {
