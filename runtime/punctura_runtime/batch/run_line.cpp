@@ -5,8 +5,10 @@ namespace punctura::batch {
 const std::vector<const LineCode*>& line_codes() {
   static const std::vector<const LineCode*> codes = [] {
     std::vector<const LineCode*> found;
-#if defined(PUNCTURA_BATCH_AVX)
+#if defined(PUNCTURA_BATCH_AVX512)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) found.push_back(&line_code_avx512());
+#endif
+#if defined(PUNCTURA_BATCH_AVX2)
     if (__builtin_cpu_supports("avx2")) found.push_back(&line_code_avx2());
 #endif
     if (const LineCode* base = line_code_base()) found.push_back(base);

@@ -29,7 +29,7 @@ struct LineCode {
 const LineCode& line_code_portable() noexcept;
 /// "sse2" or "neon"; null on a processor without vectors that this file knows.
 const LineCode* line_code_base() noexcept;
-// Only with PUNCTURA_BATCH_AVX.
+// Only with PUNCTURA_BATCH_AVX2, or PUNCTURA_BATCH_AVX512.
 const LineCode& line_code_avx2() noexcept;
 const LineCode& line_code_avx512() noexcept;
 
