@@ -197,8 +197,8 @@ use_it() {
 # The instructions of a tick, counted by valgrind, are not more than the stored ones.
 step_instructions() { python benchmarks/instructions.py --check; }
 
-# A quarter of the random cases; the step `statistics` draws all of them.
-step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/4}" python_tests -n 4 --dist loadgroup; }
+# A sixteenth of the random cases; the step `statistics` draws all of them.
+step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/16}" python_tests -n 4 --dist loadgroup; }
 python_tests() {
   local but=()
   if ! has_siconos; then
