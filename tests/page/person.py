@@ -75,10 +75,11 @@ def opened(browser: Browser, url: str, sound: str = "off", script: str = "", few
     assert not errors, errors
 
 
-def own_exercise(folder: Path, title: str, *changes: tuple[str, str]) -> Path:
-    """A file with the venipuncture under another title. changes: what to replace in its text, and by what."""
-    text = load_exercise("venipuncture").path.read_text(encoding="utf-8")
-    for before, after in (('"Venipuncture"', f'"{title}"'), *changes):
+def own_exercise(folder: Path, title: str, *changes: tuple[str, str], of: str = "venipuncture") -> Path:
+    """A file with a ready exercise under another title. changes: what to replace in its text, and by what."""
+    ready_one = load_exercise(of)
+    text = ready_one.path.read_text(encoding="utf-8")
+    for before, after in ((f'"{ready_one.title}"', f'"{title}"'), *changes):
         assert before in text, before
         text = text.replace(before, after)
     file = folder / "own_exercise.toml"

@@ -1,4 +1,4 @@
-"""An exercise from the user, passed and failed: the venipuncture, at any speed of the computer."""
+"""Exercises from the user, passed and failed: venipuncture and blind, at any speed of the computer."""
 
 import json
 
@@ -13,9 +13,9 @@ TITLE = "In your own time"
 
 @pytest.fixture
 def studio(tmp_path, request):
-    """A studio that lists an exercise without a time limit. request.param: s to stay in the vein."""
-    stay = ("seconds = 3", f"seconds = {request.param}")
-    file = own_exercise(tmp_path, TITLE, ('[[goal]]\nkind = "time_limit"\nseconds = 60', ""), stay)
+    """A studio that lists an exercise without a time limit. request.param: which one, and changes of its text."""
+    of, *changes = request.param
+    file = own_exercise(tmp_path, TITLE, ('[[goal]]\nkind = "time_limit"\nseconds = 60', ""), *changes, of=of)
     with StudioProcess(tmp_path, "k06-fig10", more=["--exercise", str(file)]) as running:
         yield running
 
@@ -31,7 +31,8 @@ def begin(page):
     expect(page.locator(".header")).to_contain_text("Force on")
 
 
-@pytest.mark.parametrize("studio", [600], indirect=True)  # a slow computer must not pass it on the way
+# A slow computer must not pass it on the way.
+@pytest.mark.parametrize("studio", [("venipuncture", ("seconds = 3", "seconds = 600"))], indirect=True)
 def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     fetched = []
     page.on("response", lambda answer: fetched.append(answer) if "/api/recordings/" in answer.url else None)
@@ -56,7 +57,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     assert len(fetched) == 1 and "/trace?" in fetched[0].url and len(fetched[0].body()) < 100_000
 
 
-@pytest.mark.parametrize("studio", [3], indirect=True)
+@pytest.mark.parametrize("studio", [("venipuncture",)], indirect=True)
 def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page, tmp_path):
     begin(page)
     running = page.locator(".running")
@@ -133,11 +134,11 @@ def changed(one, other):
     return int((np.abs(one - other).max(axis=2) > 8).sum())
 
 
-@pytest.mark.parametrize("studio", [3], indirect=True)
+@pytest.mark.parametrize("studio", [("blind",)], indirect=True)
 def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(page):
     ready(page)
     tab(page, "Exercises")
-    page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
+    page.locator("article.exercise", has_text=TITLE).get_by_role("button", name="Start").click()
     expect(page.locator(".running")).to_be_visible()
     page.reload()
     expect(page.locator(".running")).to_be_visible()
