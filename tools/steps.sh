@@ -112,7 +112,8 @@ compile() {
   local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
   shift
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
-  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF ${definition:-} && cmake --build --preset "$preset" ${1:+--target "$@"}
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF ${definition:-} &&
+    cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
