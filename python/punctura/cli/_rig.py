@@ -16,15 +16,18 @@ Option = Annotated[
     list[str] | None,
     typer.Option(
         "--rig",
-        help="What is known of the sensors: depth_noise_um=10 (0: exact). Else the trace tells.",
+        help="What is known of the sensors: depth_noise_um=10, lag_ms=20+-2, delay_ms=20 (0: none). Else the trace "
+        "tells.",
         metavar="NAME=VALUE",
     ),
 ]
-_STATED = {"depth_noise_um": ("depth_noise", 1e-6)}
-_EXAMPLE = "depth_noise_um=10"
+_STATED = {"depth_noise_um": ("depth_noise", 1e-6), "lag_ms": ("lag", 1e-3), "delay_ms": ("delay", 1e-3)}
+_SIGN = "\u00b1", "+-"
+_EXAMPLE = "depth_noise_um=10 or lag_ms=20+-2"
 _TOLERANCES = {
     "diameter_mm": ("diameter_tolerance", 1e-3), "tip_angle_rad": ("tip_angle_tolerance", 1.0),
-    "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)),
+    "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)), "lag_ms": ("lag_tolerance", 1e-3),
+    "delay_ms": ("delay_tolerance", 1e-3),
 }  # fmt: skip
 
 
@@ -36,9 +39,12 @@ def rig_of(given: list[str] | None, needle: str) -> tuple[Rig, str]:
 
     values = {}
     for name, text in pairs(given, "--rig", _EXAMPLE).items():
-        values |= _value(_STATED, name, text, f"{name}={text} must be as {_EXAMPLE}", "--rig")
+        value, sign, tolerance = text.replace(*_SIGN).partition("+-")
+        wanted = f"{name}={text} must be as {_EXAMPLE}"
+        values |= _value(_STATED, name, value, wanted, "--rig")
+        values |= _value(_TOLERANCES, name, tolerance, wanted, "--rig") if sign else {}
     sizes = []
-    for part in needle.replace("\u00b1", "+-").split(","):
+    for part in needle.replace(*_SIGN).split(","):
         size, sign, tolerance = part.partition("+-")
         sizes.append(size)
         if sign:

@@ -6,13 +6,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from punctura import Needle
-from punctura.identify.all_extensions import from_all
+from punctura.identify.all_extensions import from_all, reduced
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Start
 from punctura.identify.hops import GAIN, with_hops
+from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.parameters import Parameters
 from punctura.identify.pops_moved import noise_limit
+from punctura.identify.rig import UNKNOWN, Rig
 from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace
@@ -56,7 +58,12 @@ class Choice:
 
     def extend(self) -> None:
         """Chooses extensions of the current model and its number of membranes."""
-        current = from_all(self.search, _extended(self.search, self.current))
+        first = self.current
+        current = _extended(self.search, with_late_sensor(self.search, first))
+        if current.model.late != first.model.late:  # or the tissue explains it
+            _extended(self.search, first)
+            current = self._best_of_all(current)
+        current = from_all(self.search, current)
         if current.model.membranes > 1 and not current.model.one_tissue:
             tied = _of_one_tissue(self.search, current)
             if tied is not current:
@@ -65,6 +72,8 @@ class Choice:
             before, current = current, _other_number(self.search, current, self.most or 0)
             if current is before:
                 break
+        late = with_late_sensor(self.search, current)
+        current = without_late_sensor(self.search, current if late is current else reduced(self.search, late))
         self.current = self._best_of_all(current)
 
     def _best_of_all(self, current: Candidate) -> Candidate:
@@ -111,9 +120,10 @@ def choose(
     tell: Callable[[str], None] = lambda _: None,
     *,
     most: int | None = None,
+    rig: Rig = UNKNOWN,
 ) -> Choice:
     """Tries the models that this trace may ask for, and chooses one."""
-    search = Search(trace, segments, needle, tell)
+    search = Search(trace, segments, needle, tell, rig.late)
     drift = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
     plain = search.fitted("K06", Model(membranes, drift=drift), search.starts(membranes, False, 3))
     assert plain is not None
@@ -183,7 +193,7 @@ def _one_more(search: Search, current: Candidate) -> Iterator[Candidate]:
 
     An extension may be there only because a wall is missing.
     """
-    count, plain = current.model.membranes + 1, search.tried[0].model
+    count, plain = current.model.membranes + 1, replace(search.tried[0].model, late=current.model.late)
     fresh = search.starts(count, False, FRESH)
     models = [replace(current.model, membranes=count)]
     models += [replace(plain, membranes=count)] if current.model.words else []

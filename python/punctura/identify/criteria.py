@@ -13,8 +13,11 @@ from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace, TraceError
 from punctura.trace.blocks import held_out
 from punctura.trace.information import Information, information
+from punctura.trace.turns import noise_of
 
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
+STRONG = 6.0  # the same for a sensor that is late, which no trace without it may show: "strong" evidence
+NOISY = 1.2  # times the noise: where a model leaves more, it is wrong otherwise, and tells nothing of the sensor
 TAKEN = 0.05  # of the squares, that a relaxation takes at least where a rest shows one
 RELAXATION = "relaxation"  # begins the names of its parameters
 WORSE = 1.02  # a held-out error that is higher by less than this factor is not worse
@@ -55,14 +58,16 @@ class Rule:
     def __init__(self, trace: Trace, segments: Segments) -> None:
         self._masks = held_out(len(trace), segments)
         self.air = AirNoise(trace, segments)
+        self._noise = noise_of(trace.force)
         self._errors: dict[int, tuple[Candidate, float | None]] = {}
 
     def prefers(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` is the better model.
 
         Both BIC count the independent samples of the candidate with the smaller error. The smaller model wins unless
-        the larger one's BIC is smaller by more than EVIDENCE. Where the force relaxes, no model without a relaxation
-        is better than one whose relaxation takes a share of the squares.
+        the larger one's BIC is smaller by more than EVIDENCE. To add a lag or a delay of the sensor it must be STRONG,
+        and little more than noise may be left. Where the force relaxes, no model without a relaxation is better than
+        one whose relaxation takes a share of the squares.
         """
         if self.air.relaxes and _relaxing(new) != _relaxing(old):
             relaxing, rigid = (new, old) if _relaxing(new) else (old, new)
@@ -70,9 +75,13 @@ class Rule:
                 return relaxing is new
         effective = min(new, old, key=lambda one: one.fit.sse).effective
         gain = old.worth(effective).bic - new.worth(effective).bic
-        if len(new.fit.u) <= len(old.fit.u):
-            return gain >= -EVIDENCE if len(new.fit.u) < len(old.fit.u) else gain > 0
-        if gain <= EVIDENCE or self._may_be_drift(new, old):
+        larger, smaller = (new, old) if len(new.fit.u) > len(old.fit.u) else (old, new)
+        needed = EVIDENCE
+        if set(larger.model.late) - set(smaller.model.late):
+            needed = STRONG if larger.fit.weighted_rmse < NOISY * self._noise else np.inf
+        if larger is old:
+            return gain >= -needed if len(new.fit.u) < len(old.fit.u) else gain > 0
+        if gain <= needed or self._may_be_drift(new, old):
             return False
         after, before = self.held_out_error(new), self.held_out_error(old)
         return after is not None and (before is None or after <= WORSE * before)

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura._core import TraceModel
-from punctura.identify.parameters import Free, Parameters
+from punctura.identify.parameters import LATE, Free, Parameters
+from punctura.identify.sensor import SensedModel
 from punctura.identify.slow_noise import NoiseOfFit
 from punctura.trace import Trace, TraceError
 from punctura.trace.air import spread
@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 NEARLY = 30.0  # variances of a sample by which another search may be worse and still count
 FURTHER, LITTLE = 30, 0.1  # evaluations of a round after the last one, and what it must gain
+NEAR = 2  # samples on both sides, for a speed
 ROUNDS = 20  # of them, at most
 HOPELESS = 2.0  # times the squares of the best search so far: one that creeps above them goes on no longer
 
@@ -42,15 +43,28 @@ class Misfit:
         self.zero = zero
         self.depth_error = depth_error or DepthError(np.zeros(len(trace)), np.ones(len(trace)))
         self.used = np.ones(len(trace), bool) if used is None else used
-        self._model = TraceModel(parameters.needle, trace.depth, trace.time)
+        self._model = SensedModel(parameters.needle, trace.depth, trace.time)
         self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
         if trace.time is not None:
             self._nuisance[:, 1] = trace.time - trace.time[0]
 
+    def free(self, names: Sequence[str], base: Parameters) -> Free:
+        """These parameters as the free ones of a fit to this trace; all others are as in `base`."""
+        return Free(names, base, float(self.trace.depth.max()), self.zero, self._speed_at)
+
+    def _speed_at(self, depth: float) -> float:
+        """How fast the needle first comes to a depth, m/s; 0 without time, or if it does not."""
+        trace = self.trace
+        at = int(np.argmax(trace.depth >= depth))
+        if trace.time is None or at == 0:
+            return 0.0
+        near = slice(max(at - NEAR, 0), at + NEAR)
+        return float(np.ptp(trace.depth[near]) / np.ptp(trace.time[near]))
+
     def forces(self, parameters: Parameters) -> Array:
         """The model's force at every sample (n,), N, with offset and drift of the sensor."""
-        force, _ = self._model.forces(parameters.membranes, parameters.coupling, False)
-        return np.asarray(force + self.depth_error.mean + self._nuisance @ parameters.nuisance)
+        zero = self._nuisance @ parameters.nuisance[:2]
+        return np.asarray(self._model.forces(parameters) + self.depth_error.mean + zero)
 
     def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Model minus measured force at the used samples, N. blur: see blurred()."""
@@ -59,9 +73,9 @@ class Misfit:
 
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
-        parameters = free.parameters(u)
-        _, by_all = self._model.forces(parameters.membranes, parameters.coupling, by=free.kinds)
-        return self._weighted(blurred(free.chain(np.hstack((by_all, self._nuisance)), u), blur))
+        columns = self._model.jacobian(free.parameters(u), free.kinds, free.late)
+        by_all = np.insert(columns, [columns.shape[1] - len(LATE)], self._nuisance, axis=1)
+        return self._weighted(blurred(free.chain(by_all, u), blur))
 
     def _weighted(self, columns: Array) -> Array:
         return np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
@@ -79,10 +93,8 @@ class Misfit:
     def depth_errors(self, parameters: Parameters) -> Array:
         """Draws (m, n) of the force, N, that the most likely depth leaves out: that of the true depth, less its own."""
         depths = self.trace.depth[None, :] if self.trace.depths is None else self.trace.depths
-        p = parameters
-        own, _ = self._model.forces(p.membranes, p.coupling, False)
-        models = (TraceModel(p.needle, depth, self.trace.time) for depth in depths)
-        return np.array([model.forces(p.membranes, p.coupling, False)[0] for model in models]) - own
+        models = (SensedModel(parameters.needle, depth, self.trace.time) for depth in depths)
+        return np.array([model.forces(parameters) for model in models]) - self._model.forces(parameters)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +169,7 @@ def in_order(found: Fit) -> Fit:
     if np.array_equal(ordered.membranes, parameters.membranes):
         return replace(found, others=others)
     misfit = found.misfit
-    free = Free(free.names, ordered, float(misfit.trace.depth.max()), misfit.zero)
+    free = misfit.free(free.names, ordered)
     u = free.coordinates(ordered)
     residuals, jacobian = misfit.residuals(free, u), misfit.jacobian(free, u)
     return Fit(misfit, free, u, residuals, jacobian, found.evaluations, others)
@@ -178,14 +190,13 @@ def fit(
     A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
     Raises TraceError if the last search does not end, or creeps where the squares are above `hopeless`, N^2.
     """
-    deepest = float(misfit.trace.depth.max())
-    free = Free(names, start, deepest, misfit.zero)
+    free = misfit.free(names, start)
     u = free.coordinates(start)
     count = 0
     for blur in blurs:
         u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
-    other = Free(names, free.parameters(u), deepest, misfit.zero)
+    other = misfit.free(names, free.parameters(u))
     if other.walls != free.walls:
         u, free = other.coordinates(free.parameters(u)), other
         u, more, message = _search(misfit, free, u, 0, evaluations)

@@ -19,10 +19,11 @@ from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
+from punctura.identify.late_sensor import late_words
 from punctura.identify.model import Model
 from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
 from punctura.identify.noise import effective_samples
-from punctura.identify.parameters import Parameters
+from punctura.identify.parameters import LATE, Parameters
 from punctura.identify.pops_moved import with_pops_moved
 from punctura.identify.records import IdentificationRecord
 from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
@@ -138,7 +139,7 @@ def _identified(
     few = thinned(trace)
     all_used = len(few) == len(trace)
     count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
-    choice = choose(few, segments if all_used else segment(few), needle, count, tell, most=most)
+    choice = choose(few, segments if all_used else segment(few), needle, count, tell, most=most, rig=rig)
     found: tuple[Estimate, ...] | None = None
     better: list[tuple[Model, Parameters]] = []
     least, more = np.inf, False  # the squares of the last fit, N^2; whether there are better optima still
@@ -162,15 +163,16 @@ def _identified(
             least = final.sse
             better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
-    if rig.diameter_tolerance or rig.tip_angle_tolerance:
-        tell("tolerances of the needle")
+    if rig.values():
+        tell("tolerances of the rig")
         found = with_tolerance(found, final, rig)
-        of_needle = {"diameter": (rig.diameter_tolerance, "m"), "tip_angle": (rig.tip_angle_tolerance, "rad")}
-        known += [RigValue(f"{name}_tolerance", *one, True) for name, one in of_needle.items() if one[0]]
+    known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
+    late = {one.name: one for one in found if one.name in LATE}
+    known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
     effective = effective_samples(final.residuals, len(final.u))
     doubt = doubts(trace, segments, final, choice.current.extensions)
     said = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
-    said = (*noise_not_used(trace, rig.depth_noise), *said)
+    said = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *said)
     said = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *said, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
 from punctura.identify.fit import fit as fitted
-from punctura.identify.parameters import UNITS, Parameters, kind_of
+from punctura.identify.parameters import NUISANCE, UNITS, Parameters, kind_of
 from punctura.identify.profile import bound
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95, Uncertainty
@@ -38,7 +38,7 @@ class Estimate:
         """Whether both bounds are known and, for a positive parameter, at most a factor of 10 apart."""
         if self.low is None or self.high is None:
             return False
-        if kind_of(self.name) in ("surface", "growth", "offset", "drift"):
+        if kind_of(self.name) in ("surface", "growth", *NUISANCE):
             return True
         return self.high < 10 * max(self.low, 0.02 * self.high)
 
@@ -76,7 +76,7 @@ def _searched_again(
 
     Where some parameters cannot be told, the others follow a long, curved valley, which few steps do not follow.
     """
-    if not estimate.identifiable or kind_of(estimate.name) in ("surface", "offset", "drift"):
+    if not estimate.identifiable or kind_of(estimate.name) in ("surface", *NUISANCE):
         return estimate
     low, high = (_outwards(main, j, edge, others, watch) for edge in (estimate.low, estimate.high))
     return replace(estimate, low=low, high=high)

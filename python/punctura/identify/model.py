@@ -62,12 +62,13 @@ def extensions(needle: Needle) -> tuple[Extension, ...]:
 
 @dataclass(frozen=True)
 class Model:
-    """How many membranes, which extensions, whether all walls are of one tissue, whether a sensor's drift is fitted."""
+    """How many membranes, which extensions, whether all walls are of one tissue, and what of the sensor is fitted."""
 
     membranes: int
     extensions: tuple[Extension, ...] = ()
     one_tissue: bool = False
     drift: bool = False
+    late: tuple[str, ...] = ()  # lag, delay
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -80,7 +81,7 @@ class Model:
         own = [kind for kind in OWN if not (self.one_tissue and kind in SHARED)]
         names = [f"membrane[{i}].{kind}" for i in range(self.membranes) for kind in own]
         names += [f"tissue.{kind}" for kind in SHARED] if self.one_tissue else []
-        names += ["coupling_stiffness", "offset", *(["drift"] if self.drift else [])]
+        names += ["coupling_stiffness", "offset", *(["drift"] if self.drift else []), *self.late]
         return tuple(dict.fromkeys((*names, *(name for e in self.extensions for name in e.start))))
 
     def extended(self, extension: Extension) -> Model:

@@ -1,4 +1,4 @@
-"""Intervals for a needle that is stated with a tolerance: the fit is repeated at both ends of it."""
+"""Intervals for a needle, a lag or a delay stated with a tolerance: the fit is repeated at both ends of it."""
 
 from __future__ import annotations
 
@@ -12,21 +12,24 @@ from numpy.typing import NDArray
 from punctura import Needle
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.intervals import Estimate
-from punctura.identify.parameters import Free
+from punctura.identify.parameters import Free, Parameters
 from punctura.identify.rig import Rig
 
 Array = NDArray[np.float64]
 
 
 def with_tolerance(found: Sequence[Estimate], of: Fit, rig: Rig) -> tuple[Estimate, ...]:
-    """The estimates of a fit, with the intervals that the tolerances of the needle leave.
+    """The estimates of a fit, with the intervals that the tolerances of needle and sensor leave.
 
-    A tolerance is taken for the 95 % interval of the true size. Its part of an interval is how far the best value moves
-    from one end of the tolerance to the other, and adds to the rest by squares. Where no fit succeeds there, no bound
-    is known.
+    A tolerance is taken for the 95 % interval of the true value. Its part of an interval is how far the best value
+    moves from one end of the tolerance to the other, and adds to the rest by squares. Where no fit succeeds there, no
+    bound is known.
     """
-    for ends in _ends(of.parameters.needle, rig):
-        moved = [_values_with(needle, of) for needle in ends]
+    p = of.parameters
+    bases = [[replace(p, needle=needle) for needle in ends] for ends in _ends(p.needle, rig)]
+    bases += [[p.with_values({name: end}) for end in ends] for name, ends in _late_ends(rig)]
+    for ends in bases:
+        moved = [_values_with(base, of) for base in ends]
         found = [_widened(one, of.free, j, [each[j] for each in moved]) for j, one in enumerate(found)]
     return tuple(found)
 
@@ -54,12 +57,21 @@ def _ends(needle: Needle, rig: Rig) -> Iterator[tuple[Needle, Needle]]:
         yield Needle(d, angle - rig.tip_angle_tolerance), Needle(d, angle + rig.tip_angle_tolerance)
 
 
-def _values_with(needle: Needle, of: Fit) -> Array:
-    """The best values (p,) with another needle; NaN where no fit succeeds. It begins with the pops where they are."""
+def _late_ends(rig: Rig) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Lag and delay at both ends of their tolerances, s."""
+    for name, value in rig.late.items():
+        if tolerance := getattr(rig, f"{name}_tolerance"):
+            low = value - tolerance
+            yield name, (max(low, 0.0) if name == "lag" else low, value + tolerance)
+
+
+def _values_with(base: Parameters, of: Fit) -> Array:
+    """The best values (p,) where what is not free is as in `base`; NaN where no fit succeeds. It begins with the pops
+    where they are.
+    """
     old = of.misfit
-    base = replace(of.parameters, needle=needle)
     try:
-        start = Free(of.free.names, base, float(old.trace.depth.max()), old.zero).parameters(of.u)
+        start = old.free(of.free.names, base).parameters(of.u)
         misfit = Misfit(old.trace, start, old.used, old.zero, old.depth_error)
         end = fit(misfit, of.free.names, start)
     except ValueError:  # TraceError; or a friction that jams this needle

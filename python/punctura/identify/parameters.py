@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -15,12 +15,14 @@ Array = NDArray[np.float64]
 
 MEMBRANE = TraceModel.membrane_names
 COUPLING = TraceModel.coupling_names
-NUISANCE = ("offset", "drift")  # N and N/s: of the sensor
+LATE = ("lag", "delay")  # s: of the force behind the depth
+NUISANCE = ("offset", "drift", *LATE)  # of the sensor
+LATEST = 0.2  # s, of a lag or a delay: what is slower is no sensor
 UNITS = {
     "surface": "m", "stiffness": "N/m", "precompression": "N", "friction": "-", "thickness": "m", "tip_length": "m",
     "growth": "1/m", "tail_length": "m", "tail_floor": "-", "cutting": "N", "set": "-", "coupling_stiffness": "N/m",
     "coupling_damping": "N s/m", "relaxation_1_stiffness": "N/m", "relaxation_1_time": "s",
-    "relaxation_2_stiffness": "N/m", "relaxation_2_time": "s", "offset": "N", "drift": "N/s",
+    "relaxation_2_stiffness": "N/m", "relaxation_2_time": "s", "offset": "N", "drift": "N/s", "lag": "s", "delay": "s",
 }  # fmt: skip
 _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
@@ -32,21 +34,27 @@ _RANGES = {
     "cutting": (0.0, 1e2), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e6), "coupling_damping": (0.0, 1e3),
     "relaxation_1_stiffness": (0.0, 1e6), "relaxation_1_time": (1e-3, 1e3),
     "relaxation_2_stiffness": (0.0, 1e6), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
+    "lag": (0.0, LATEST), "delay": (-LATEST, LATEST),
 }  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Parameters:
-    """The values of all parameters, SI. membranes: (m, 11); coupling: (6,); nuisance: offset N, drift N/s."""
+    """The values of all parameters, SI. membranes: (m, 11); coupling: (6,); nuisance: (4,), as NUISANCE."""
 
     needle: Needle
     membranes: Array
     coupling: Array
-    nuisance: Array = field(default_factory=lambda: np.zeros(2))
+    nuisance: Array = field(default_factory=lambda: np.zeros(len(NUISANCE)))
 
     def get(self, name: str) -> float:
         """The value of `membrane[0].friction`, `tissue.friction` (the first membrane's), `coupling_stiffness` ..."""
         return float(self.vector()[indices(name, len(self.membranes))[0]])
+
+    @property
+    def late(self) -> tuple[float, float]:
+        """Lag and delay of the sensor, s."""
+        return float(self.nuisance[2]), float(self.nuisance[3])
 
     def vector(self) -> Array:
         """All values in one vector: coupling, membranes, nuisance."""
@@ -111,6 +119,7 @@ class Free:
     A coordinate is a logarithm where a parameter is positive by nature. The coordinate of a free surface is the depth
     where its wall pops: the pop is seen sharply, so a search must be able to change all else without moving it. A wall
     that pops deeper than the trace goes has its surface itself as coordinate: there the contact is what is seen.
+    Behind a delay, a pop is seen deeper.
     """
 
     def __init__(
@@ -119,10 +128,11 @@ class Free:
         base: Parameters,
         deepest: float = np.inf,
         zero: tuple[float, float] = (-np.inf, np.inf),
+        speed: Callable[[float], float] = lambda _: 0.0,
     ) -> None:
         """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m.
 
-        zero: the range of the offset, N, if no drift is free.
+        zero: the range of the offset, N, if no drift is free. speed: m/s, at which the needle comes to a depth, m.
         """
         self.names = tuple(names)
         self._zero = (-np.inf, np.inf) if "drift" in self.names else zero
@@ -133,17 +143,21 @@ class Free:
         self._rows = np.concatenate([*self._at, np.zeros(0, int)]).astype(int)  # in the vector, and whose they are:
         self._owner = np.repeat(np.arange(len(self.names)), [len(at) for at in self._at])
         self.kinds = [kind for kind in (*COUPLING, *MEMBRANE) if kind in map(kind_of, self.names)]
+        self.late = [kind for kind in LATE if kind in self.names]
         self._last: tuple[bytes, Array] | None = None  # coordinates, and the vector of all parameters
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
         self.low, self.high = self._coordinates(low), self._coordinates(high)
         surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
-        pops = self._pops(base.vector(), False)[0] if np.isfinite(deepest) else np.zeros(m)
+        vector = base.vector()
+        pops = self._pops(vector, False)[0] if np.isfinite(deepest) else np.zeros(m)
         # each free surface whose pop is seen: its coordinate, and its membrane
         self.walls = [
             (k, surfaces.index(at[0]))
             for k, at in enumerate(self._at)
-            if at[0] in surfaces and pops[surfaces.index(at[0])] <= deepest - base.vector()[at[0]]
+            if at[0] in surfaces and pops[surfaces.index(at[0])] <= deepest - vector[at[0]]
         ]
+        self._delay = indices("delay", m)[0]
+        self._speeds = {wall: speed(float(vector[surfaces[wall]] + pops[wall])) for _, wall in self.walls}
 
     def _range(self, name: str) -> tuple[float, float]:
         kind = kind_of(name)
@@ -164,7 +178,7 @@ class Free:
         if self.walls:
             pops, _ = self._pops(self._without_pops(u), False)
             for k, wall in self.walls:
-                u[k] += pops[wall]
+                u[k] += pops[wall] + self._speeds[wall] * parameters.nuisance[-1]
         return np.clip(u, self.low, self.high)
 
     def _without_pops(self, u: Array) -> Array:
@@ -186,7 +200,7 @@ class Free:
             if self.walls:
                 pops, _ = self._pops(vector, False)
                 for k, wall in self.walls:
-                    vector[self._at[k]] -= pops[wall]
+                    vector[self._at[k]] -= pops[wall] + self._speeds[wall] * vector[self._delay]
             self._last = asked, vector
         return self.base.with_vector(self._last[1])
 
@@ -214,7 +228,7 @@ class Free:
             for k, wall in self.walls:
                 first = shared + wall * own
                 moves = rows[wall, :shared] @ by_u[:shared] + rows[wall, shared + 1 :] @ by_u[first + 1 : first + own]
-                by_u[self._at[k][0]] -= moves
+                by_u[self._at[k][0]] -= moves + self._speeds[wall] * by_u[self._delay]
         return by_u
 
     def chain(self, jacobian: Array, u: Array) -> Array:

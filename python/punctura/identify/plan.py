@@ -9,8 +9,9 @@ from itertools import pairwise, product
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura._core import TraceModel
-from punctura.identify.parameters import NUISANCE, Free, Parameters
+from punctura.identify.fit import Misfit
+from punctura.identify.parameters import Free, Parameters
+from punctura.trace import Trace
 
 Array = NDArray[np.float64]
 
@@ -56,11 +57,7 @@ def information(
     """Log-determinant of the Fisher information of the free coordinates, and their expected standard errors."""
     free = Free(names, parameters)
     u = free.coordinates(parameters)
-    model = TraceModel(parameters.needle, depth, time)
-    _, by_all = model.forces(parameters.membranes, parameters.coupling, True)
-    sensor = np.column_stack((np.ones(len(time)), time - time[0]))
-    assert sensor.shape[1] == len(NUISANCE)
-    jacobian = free.chain(np.hstack((by_all, sensor)), u) / noise
+    jacobian = Misfit(Trace(depth, np.zeros(len(depth)), time), parameters).jacobian(free, u) / noise
     gram = jacobian.T @ jacobian + 1e-6 * np.eye(len(u))  # a weak prior: what is not seen has an error of 1000
     errors = np.sqrt(np.diag(np.linalg.inv(gram)))
     return float(np.linalg.slogdet(gram)[1]), dict(zip(names, errors.tolist(), strict=True))

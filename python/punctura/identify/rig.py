@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from punctura import Needle
 from punctura.errors import ConfigurationError, Problem
+from punctura.identify.parameters import LATE, LATEST
 
 
 @dataclass(frozen=True)
@@ -16,18 +17,42 @@ class Rig:
     depth_noise: float | None = None  # m, standard deviation from sample to sample; 0: the depth is exact
     diameter_tolerance: float = 0.0  # m, of the stated needle: the true one is within it, in 95 of 100
     tip_angle_tolerance: float = 0.0  # rad
+    lag: float | None = None  # s, time constant of the force sensor's filter
+    delay: float | None = None  # s, of the force behind the depth; negative if the depth is late
+    lag_tolerance: float = 0.0  # s
+    delay_tolerance: float = 0.0  # s
+
+    @property
+    def late(self) -> dict[str, float]:
+        """What is stated of the parameters `lag` and `delay`, s."""
+        return {name: value for name in LATE if (value := getattr(self, name)) is not None}
+
+    def values(self) -> tuple[RigValue, ...]:
+        """What is stated, and is not 0; without the noise of the depth, which may not matter."""
+        every = {**self.late, **{f"{name}_tolerance": getattr(self, f"{name}_tolerance") for name in _UNITS}}
+        return tuple(RigValue(name, value, _UNITS[name.removesuffix("_tolerance")], True)
+                     for name, value in every.items() if value)  # fmt: skip
 
 
+_UNITS = {"lag": "s", "delay": "s", "diameter": "m", "tip_angle": "rad"}
 UNKNOWN = Rig()
 
 
 def check(rig: Rig, needle: Needle) -> None:
     """Raises ConfigurationError with all that is wrong with a rig that has this needle."""
     size, angle = needle.diameter, needle.tip_angle
+    most = f"less than {LATEST:g} s"
+    beside = {name: LATEST if name in rig.late else math.ulp(0.0) for name in LATE}  # a tolerance needs a value
     bounds = {
-        "depth_noise": (math.inf, "a number of m, 0 or more"),
-        "diameter_tolerance": (size, f"0 or more, and less than the diameter, {size:.4g} m"),
+        "depth_noise": (0.0, math.inf, "a number of m, 0 or more"),
+        "lag": (0.0, LATEST, f"0 or more, and {most}"),
+        "delay": (-LATEST, LATEST, f"{most}, also if it is negative"),
+        **{
+            f"{name}_tolerance": (0.0, beside[name], f"0 without a {name}; else 0 or more, and {most}") for name in LATE
+        },
+        "diameter_tolerance": (0.0, size, f"0 or more, and less than the diameter, {size:.4g} m"),
         "tip_angle_tolerance": (
+            0.0,
             min(angle, math.pi / 2 - angle),
             f"0 or more, and leave the tip angle, {angle:.4g} rad, between 0 and pi/2",
         ),
@@ -35,8 +60,8 @@ def check(rig: Rig, needle: Needle) -> None:
     values = {name: getattr(rig, name) for name in bounds}
     problems = [
         Problem(f"rig.{name}", values[name], f"must be {words}")
-        for name, (most, words) in bounds.items()
-        if values[name] is not None and not 0 <= values[name] < most
+        for name, (low, high, words) in bounds.items()
+        if values[name] is not None and not low <= values[name] < high
     ]
     if problems:
         raise ConfigurationError(problems)

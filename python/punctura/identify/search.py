@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -14,7 +14,7 @@ from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, fit, in_order
 from punctura.identify.hops import with_hops
 from punctura.identify.model import Extension, Model
-from punctura.identify.parameters import Parameters
+from punctura.identify.parameters import LATE, Parameters
 from punctura.identify.pops_moved import noise_limit, with_pops_moved
 from punctura.identify.rises import rise_starts
 from punctura.identify.start import starts
@@ -48,6 +48,7 @@ class Search:
     segments: Segments
     needle: Needle
     tell: Callable[[str], None]
+    stated: Mapping[str, float] = field(default_factory=dict)  # lag and delay of the sensor, s
     rule: Rule = field(init=False)
     tried: list[Candidate] = field(default_factory=list)
 
@@ -57,6 +58,7 @@ class Search:
     def fitted(self, name: str, model: Model, from_these: Sequence[Start], hops: bool = False) -> Candidate | None:
         """The model's best fit from any of these, and with hops around its end; None if none ends."""
         self.tell(name)
+        from_these = [replace(one, parameters=self._sensed(one.parameters, model)) for one in from_these]
         misfit = self.tried[0].fit.misfit if self.tried else self._misfit(from_these[0].parameters)
         enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
         try:
@@ -73,6 +75,11 @@ class Search:
 
     def _misfit(self, parameters: Parameters) -> Misfit:
         return Misfit(self.trace, parameters, zero=self.rule.air.zero)
+
+    def _sensed(self, parameters: Parameters, model: Model) -> Parameters:
+        """With the lag and the delay that are stated; with none if they are not free either."""
+        known = {name: self.stated.get(name, 0.0) for name in LATE if name not in model.late}
+        return parameters.with_values(known)
 
     def starts(self, membranes: int, curved: bool, most: int) -> list[Start]:
         """Start values of K06, or of a curved grip, for this number of walls: those with the least errors."""

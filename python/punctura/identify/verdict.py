@@ -19,6 +19,7 @@ BEFORE = ("air", "begin well before contact")
 AGAIN = ("second", "insert a second time at the same place")
 REST = ("hold", "rest for 10 s inside the tissue")
 DEEPER = ("", "go on by two tip lengths behind the pop")
+QUICK = ("", "turn and stop quickly inside the tissue: the start of each motion shows it")
 SLOWER = ("", "insert more slowly, or sample faster: the pop is sharper than the samples")
 MORE = ("", "repeat the insertion with less noise or more samples: this trace has each part that shows it")
 _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
@@ -42,6 +43,8 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "relaxation_2_stiffness": (("long hold", "rest for a minute inside the tissue"),),
     "relaxation_2_time": (("long hold", "rest for a minute inside the tissue"),),
     "offset": (BEFORE,),
+    "lag": (QUICK,),
+    "delay": (QUICK,),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold

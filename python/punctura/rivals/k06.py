@@ -42,7 +42,9 @@ def fit_k06(trace: Trace, needle: Needle, known: Identification | None = None) -
     found = known or identify(trace, needle)
     trace = found.trace  # without the noise of the depth
     chosen = found.candidates[0]
-    printed = next((one for one in found.candidates if not one.extensions), None)
+    printed = next(
+        (one for one in found.candidates if one.model.late == chosen.model.late and not one.extensions), None
+    )
     fits = [] if printed is None else [_fit(trace, PRINTED, "K06", printed)]
     if chosen.extensions:
         fits.append(_fit(trace, CHOSEN, f"K06 with {', '.join(chosen.extensions)}", chosen))

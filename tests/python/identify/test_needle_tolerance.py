@@ -82,7 +82,7 @@ def test_a_wrong_statement_is_named(given):
 
 
 def test_a_statement_without_a_value_is_shown_its_own_example():
-    with pytest.raises(typer.BadParameter, match="must be as depth_noise_um=10"):
+    with pytest.raises(typer.BadParameter, match="must be as depth_noise_um=10 or lag_ms=20"):
         rig_of(["depth_noise_um"], "")
 
 

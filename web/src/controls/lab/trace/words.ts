@@ -24,8 +24,11 @@ const QUANTITIES: Readonly<Record<string, Quantity>> = {
   relaxation_2_time: ["time of its relaxation", "s", 1],
   offset: ["zero of the force sensor", "mN", 1e3],
   drift: ["drift of the force sensor", "mN/s", 1e3],
+  lag: ["lag of the force sensor", "ms", 1e3],
+  delay: ["delay of the force", "ms", 1e3],
 };
 const NAME = /\b(?:(membrane\[(\d+)\]|tissue)\.)?([a-z][a-z0-9_]*)\b/;
+const OF_PARAMETER = /^(membrane\[\d+\]|tissue)\.[a-z_0-9]+|^[a-z]+(_[a-z0-9]+)+|^(offset|drift|lag|delay)\b/;
 
 const minus = (text: string): string => text.replace(/-/g, "−");
 
@@ -70,7 +73,7 @@ export function estimateWords(estimate: EstimatePart): { value: string; interval
 
 /** A sentence about a parameter, with the parameter's words for its name. */
 export const doubtWords = (text: string): string => {
-  const [name] = /^(membrane\[\d+\]|tissue)\.[a-z_0-9]+|^[a-z]+(_[a-z0-9]+)+|^(offset|drift)\b/.exec(text) ?? [""];
+  const [name] = OF_PARAMETER.exec(text) ?? [""];
   const words = name ? parameterWords(name) + text.slice(name.length) : text;
   return words.charAt(0).toUpperCase() + words.slice(1);
 };

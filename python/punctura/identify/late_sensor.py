@@ -1,0 +1,95 @@
+"""Whether a trace shows that its sensor is late: K06 is fitted with a lag and a delay before the tissue is blamed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from punctura.identify.criteria import STRONG, Candidate
+from punctura.identify.fit import Start
+from punctura.identify.intervals import Estimate
+from punctura.identify.parameters import LATE, LATEST, Free
+from punctura.identify.rig import Rig
+from punctura.identify.search import Search
+from punctura.trace import Trace
+
+Array = NDArray[np.float64]
+
+TYPICAL = 5e-3, 20e-3  # s, where a search begins
+HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
+
+
+def with_late_sensor(search: Search, current: Candidate) -> Candidate:
+    """The current model with a lag, a delay or both of them, if the rule prefers it."""
+    free = [name for name in LATE if name not in search.stated and name not in current.model.late]
+    if search.trace.time is None or not free or not _may_be_late(current, free):
+        return current
+    best = current
+    for names in ((free[0],), (free[-1],), tuple(free)):
+        model = replace(current.model, late=(*current.model.late, *names))
+        if any(one.model == model for one in search.tried):
+            continue
+        starts = [Start(free.parameters(u)) for free, u in (_late(best, names, late) for late in TYPICAL)]
+        found = search.fitted(" and ".join(names), model, starts)
+        if found is None or max(map(abs, found.fit.parameters.late)) > HALT * LATEST:
+            continue
+        if search.rule.prefers(found, best):
+            best = found
+    return best
+
+
+def without_late_sensor(search: Search, current: Candidate) -> Candidate:
+    """The current model without a lag or a delay that is not worth it."""
+    for name in current.model.late:
+        late = tuple(one for one in current.model.late if one != name)
+        start = Start(current.fit.parameters)
+        found = search.fitted(f"without {name}", replace(current.model, late=late), [start])
+        if found is not None and search.rule.prefers(found, current):
+            return without_late_sensor(search, found)
+    return current
+
+
+def late_words(found: Mapping[str, Estimate], trace: Trace, rig: Rig) -> Iterator[str]:
+    """A sentence for each lag and delay that was found, and one if stated ones could not be used."""
+    if trace.time is None and any(rig.late.values()):
+        yield "The stated lag or delay of the sensor is not taken into account: the trace has no time. Record it."
+    for name, one in found.items():
+        late = one.value > 0
+        who = f"The measured {'force' if late else 'depth'} comes late"
+        how = f"as behind a filter with a time constant of {_ms(one)}" if name == "lag" else f"by {_ms(one)}"
+        yield (
+            f"{who}, {how}. The fit takes it into account. If the rig has no such {name}, state it (--rig {name}_ms=0)."
+        )
+
+
+def _ms(one: Estimate) -> str:
+    sign = 1e3 if one.value > 0 else -1e3
+    bounds = (one.low, one.high) if one.value > 0 else (one.high, one.low)
+    low, high = ("?" if bound is None else f"{sign * bound:.3g}" for bound in bounds)
+    return f"{sign * one.value:.3g} ms [{low}, {high}]"
+
+
+def _late(one: Candidate, names: Sequence[str], late: float) -> tuple[Free, Array]:
+    """Coordinates with a lag or a delay more, of so many s if it is 0: pops are seen where they were."""
+    fit = one.fit
+    free = fit.misfit.free([*one.model.names, *(name for name in names if name not in one.model.late)], fit.parameters)
+    u = free.coordinates(fit.parameters)
+    added = [free.names.index(name) for name in names]
+    u[added] = np.where(u[added] == 0, late, u[added])
+    return free, u
+
+
+def _may_be_late(current: Candidate, names: Sequence[str]) -> bool:
+    """Whether BIC of a linear model prefers a lag or a delay, with all samples as independent ones: else none is worth
+    a fit.
+    """
+    fit = current.fit
+    columns = [fit.misfit.residuals(*_late(current, [name], TYPICAL[0])) - fit.residuals for name in names]
+    known = np.column_stack((fit.jacobian, *columns))
+    known /= np.maximum(np.sqrt(np.sum(known**2, axis=0)), 1e-300)
+    left = fit.residuals - known @ np.linalg.lstsq(known, fit.residuals, rcond=1e-10)[0]
+    n = len(left)
+    return n * float(np.log(fit.sse / max(float(left @ left), 1e-300))) > np.log(n) + STRONG
