@@ -217,7 +217,7 @@ python_tests() {
 
 # The studio's page: types, lint, unused exports, tests, message types in agreement with the server, and size.
 step_web() {
-  local types="src/wire/messages.ts src/wire/limit_words.json" file code=0
+  local types="src/wire/messages.ts src/wire/limit_words.json tests/controls/support/schema.json" file code=0
   export NO_COLOR=1
   python tools/build_backend/studio_page.py && python tools/build_backend/studio_page.py --modules || return
   python tools/check_bundle.py || code=1
