@@ -47,7 +47,7 @@ function moveByGamepad(pad: Gamepad, hand: Hand, seconds: number): boolean {
   const way = FASTEST * seconds;
   const deep = add(pose.position, scaled(pose.axis, -(back ?? 0) * way));
   const aside = add(deep, scaled(hand.side(), (side ?? 0) * way));
-  hand.moveTo(add(aside, [0, 0, (near ?? 0) * way]));
+  hand.moveTo(add(aside, scaled(hand.near(), (near ?? 0) * way)));
   if (turn) hand.setTilt(hand.tilt() + turn * TURNING * seconds);
   return true;
 }

@@ -5,7 +5,7 @@ import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { HandPose } from "../wire/messages.ts";
 import { aiming, heightOver } from "./aim.ts";
-import { add, alongSkin, length, scaled, sub, tilted, tiltOf, unit } from "./vectors.ts";
+import { add, alongSkin, length, scaled, sub, tilted, tiltOf, towardsViewer, unit } from "./vectors.ts";
 
 const FARTHEST = 0.25; // m from the scene's origin; larger distances are input errors
 /**
@@ -71,7 +71,7 @@ export class Hand {
     if (connection.value.state !== "open" || !hello.value)
       return this.app.engine.studio ? "The studio is not connected." : "The core does not run in this page yet.";
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
-    if (source.value.excerpt) return "A pop is shown again. Go back to the live run to move the needle.";
+    if (source.value.excerpt) return "A moment is shown again. Go back to the live run to move the needle.";
     if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
     if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
     if (!control.value.you) return `${withoutControl(control.value)}.`;
@@ -156,6 +156,10 @@ export class Hand {
   /** The direction in the first surface towards which the needle leans. */
   side(): Triple {
     return alongSkin(this.normal());
+  }
+  /** The direction in the first surface towards the viewer. */
+  near(): Triple {
+    return towardsViewer(this.normal());
   }
   /** The distance from the tip to the target, m; null without a target. */
   lag(): number | null {

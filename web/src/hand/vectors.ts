@@ -16,6 +16,13 @@ export function alongSkin(normal: Triple): Triple {
   return unit(sub(right, scaled(normal, dot(right, normal))));
 }
 
+/** The unit vector in the plane with this normal, at a right angle to alongSkin: towards the viewer (+z). */
+export function towardsViewer(normal: Triple): Triple {
+  const [a, b, c] = alongSkin(normal);
+  const [x, y, z] = unit(normal);
+  return [y * c - z * b, z * a - x * c, x * b - y * a];
+}
+
 /** The direction at `angle` (rad) from the inward normal, leaning towards alongSkin. */
 export function tilted(angle: number, normal: Triple): Triple {
   return add(scaled(normal, Math.cos(angle)), scaled(alongSkin(normal), Math.sin(angle)));

@@ -24,6 +24,7 @@ describe("sticks that were held when a new run began", () => {
       barred: new Signal<string | null>(null),
       pose: () => ({ position: [0, 0, 0], axis: [0, -1, 0] }),
       side: () => [1, 0, 0],
+      near: () => [0, 0, 1],
       moveTo: () => {
         moved += 1;
       },

@@ -1,51 +1,90 @@
-import { expect, it } from "vitest";
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type { Hand } from "../../src/hand/hand.ts";
 import type { Thumb } from "../../src/hand/thumb.ts";
 import type { OrbitCamera } from "../../src/scene/camera.ts";
 import { viewKeys } from "../../src/scene/keys.ts";
 
-it("a key that was held when a new run began moves nothing until it is pressed anew", () => {
-  const canvas = new EventTarget();
-  const pushed: number[] = [];
-  const hand = { run: 0, push: (depth: number) => pushed.push(depth) };
-  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {}, {} as Thumb);
-  const press = (repeat: boolean): void => {
-    canvas.dispatchEvent(Object.assign(new Event("keydown", { cancelable: true }), { key: "ArrowDown", repeat }));
-  };
-  press(false);
-  press(true);
-  expect(pushed).toHaveLength(2);
-  hand.run = 1;
-  press(true);
-  press(true);
-  expect(pushed).toHaveLength(2);
-  press(false);
-  press(true);
-  expect(pushed).toHaveLength(4);
+let canvas: EventTarget;
+let pushed: number[];
+let moves: (readonly number[])[];
+let pushes: number[];
+let frame: FrameRequestCallback;
+const hand = {
+  run: 0,
+  push: (depth: number) => pushed.push(depth),
+  near: () => [0, 0, 1],
+  moveBy: (way: readonly number[]) => moves.push(way),
+};
+const key = (type: string, name: string, more = {}): void => {
+  canvas.dispatchEvent(Object.assign(new Event(type, { cancelable: true }), { key: name, ...more }));
+};
+const deep = (): number => pushed.reduce((sum, step) => sum + step, 0);
+
+beforeEach(() => {
+  [canvas, pushed, moves, pushes] = [new EventTarget(), [], [], []];
+  hand.run = 0;
+  vi.stubGlobal("requestAnimationFrame", (next: FrameRequestCallback) => {
+    frame = next;
+    return 1;
+  });
+  vi.spyOn(performance, "now").mockReturnValue(0);
+  const thumb = { push: (_by: string, force: number) => pushes.push(force) };
+  viewKeys(
+    canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {}, thumb as unknown as Thumb,
+  ); // biome-ignore format: short
+});
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.restoreAllMocks();
 });
 
-it("PageDown and PageUp move towards the user and back, with Shift four times as far", () => {
-  const canvas = new EventTarget();
-  const moves: (readonly number[])[] = [];
-  const hand = { run: 0, moveBy: (way: readonly number[]) => moves.push(way) };
-  viewKeys(canvas as unknown as HTMLElement, hand as unknown as Hand, {} as OrbitCamera, () => {}, {} as Thumb);
-  for (const [key, shiftKey] of [["PageDown", false], ["PageUp", true]] as const) // biome-ignore format: short
-    canvas.dispatchEvent(Object.assign(new Event("keydown", { cancelable: true }), { key, shiftKey }));
-  expect(moves).toEqual([[0, 0, 0.25e-3], [0, 0, -1e-3]]); // biome-ignore format: short
+it("a tap is one step; a held key moves by time, whatever the keyboard repeats and whatever other keys do", () => {
+  key("keydown", "ArrowDown");
+  expect(deep()).toBeCloseTo(0.25e-3, 12);
+  key("keydown", "ArrowDown", { repeat: true });
+  frame(250);
+  expect(deep()).toBeCloseTo(0.25e-3, 12);
+  key("keydown", " "); // the keyboard no longer repeats the arrow
+  for (let now = 260; now <= 1250; now += 10) frame(now);
+  expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
+  expect(pushes).toEqual([4]);
+  key("keyup", "ArrowDown");
+  frame(1400);
+  expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
+  expect(pushes).toEqual([4]); // the thumb goes on
+});
+
+it("a page that stalled does not jump, and a view that loses the focus moves nothing", () => {
+  key("keydown", "ArrowDown");
+  frame(5250);
+  expect(deep()).toBeCloseTo(0.25e-3 * (1 + 0.25 * 30), 9);
+  canvas.dispatchEvent(new Event("blur"));
+  const before = deep();
+  frame(5400);
+  expect(deep()).toBe(before);
+});
+
+it("a key that was held when a new run began moves nothing until it is pressed anew", () => {
+  key("keydown", "ArrowDown");
+  hand.run = 1;
+  const before = deep();
+  frame(500);
+  key("keydown", "ArrowDown", { repeat: true });
+  frame(600);
+  expect(deep()).toBe(before);
+  key("keydown", "ArrowDown");
+  expect(deep()).toBeCloseTo(before + 0.25e-3, 12);
+});
+
+it("PageDown and PageUp move towards the user and back along the skin, with Shift four times as far", () => {
+  key("keydown", "PageDown");
+  key("keydown", "PageUp", { shiftKey: true });
+  expect(moves).toEqual([[0, 0, 0.25e-3], [-0, -0, -1e-3]]); // biome-ignore format: short
 });
 
 it("Space pushes the plunger while it is held, and losing the focus lets go", () => {
-  const canvas = new EventTarget();
-  const pushes: number[] = [];
-  const thumb = { push: (_by: string, force: number) => pushes.push(force) };
-  viewKeys(
-    canvas as unknown as HTMLElement, { run: 0 } as Hand, {} as OrbitCamera, () => {}, thumb as unknown as Thumb,
-  ); // biome-ignore format: short
-  const key = (type: string): void => {
-    canvas.dispatchEvent(Object.assign(new Event(type, { cancelable: true }), { key: " " }));
-  };
-  key("keydown");
-  key("keyup");
+  key("keydown", " ");
+  key("keyup", " ");
   canvas.dispatchEvent(new Event("blur"));
   expect(pushes).toEqual([4, 0, 0]);
 });
