@@ -61,9 +61,9 @@ export const exercisesPanel: Panel = (host, app) => {
       blockLine(app, "Force and depth decide the result."),
       ...personFields(person),
     ),
+    maker,
     list,
     opening,
-    maker,
     past.root,
   );
 
@@ -119,11 +119,6 @@ export const exercisesPanel: Panel = (host, app) => {
     if (begun && !of(status!.exercise)) void readList(); // an exercise that another page tries before it is saved
     if (!ended || !status.result) return;
     await past.show(person);
-    // A page without control gets a notice instead of a dialog.
-    if (!app.control.value.you) {
-      app.notify(`${titleOf(status.exercise)}: the attempt is over.`);
-      return;
-    }
     try {
       open(await app.api.json<Result>(resultPath(status.result)));
     } catch (error) {

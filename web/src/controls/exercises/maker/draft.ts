@@ -21,26 +21,47 @@ export type FieldName = Exclude<keyof Draft, "goals"> | `goal.${string}`;
 
 const HEIGHT = 5; // mm in front of the surface, where the needle waits
 
-/** The draft of a scene: behind its last membrane but one, or its only one. */
-export function draftOf(scene: SceneOutline): Draft {
-  const behind = scene.membranes[Math.max(0, scene.membranes.length - 2)]!;
+const TO_A_VESSEL = 30; // degrees to the skin, as in the ready exercise; upright, the tip is longer than a vein is wide
+
+/** The draft of a scene: behind this membrane, or else behind its last but one, or its only one. */
+export function draftOf(scene: SceneOutline, name = ""): Draft {
+  const { membranes } = scene;
+  const behind = membranes.find((one) => one.name === name) ?? membranes[Math.max(0, membranes.length - 2)]!;
+  const vessel = behind.behind === "blood";
   const next = scene.membranes[scene.membranes.indexOf(behind) + 1];
   const layers = layersOf(scene.membranes);
   const at = scene.membranes.indexOf(behind);
   const room = next ? round((layers[at + 1]!.top - layers[at]!.bottom) * 1e3) : null;
   return {
     title: "My exercise",
-    instruction: `Push in until the ${behind.name} gives way, and stop.`,
+    instruction: `Push in${vessel ? ` at ${TO_A_VESSEL} degrees` : ""} until the ${behind.name} gives way, and stop.`,
     scene: scene.name,
-    space: `the space behind the ${behind.name}`,
+    space: SPACES[behind.behind] ?? `the space behind the ${behind.name}`,
     behind: behind.name,
     from: 0,
     to: room !== null && room > 0.2 ? room : 8,
-    angle: 90,
-    wholeTip: false,
+    angle: vessel ? TO_A_VESSEL : 90,
+    wholeTip: vessel,
     blind: false,
     goals: { stay: 2, entries: 3, time_limit: 60 },
   };
+}
+
+const SPACES: Readonly<Record<string, string>> = { blood: "the vessel", "epidural space": "the epidural space" };
+
+/** A draft after a change. What the teacher has not edited follows the scene and the membrane of the goal. */
+export function changed(
+  draft: Draft,
+  part: Partial<Draft>,
+  scene: SceneOutline,
+  edited: ReadonlySet<FieldName>,
+): Draft {
+  if (part.scene === undefined && part.behind === undefined) return { ...draft, ...part };
+  const fresh = draftOf(scene, part.behind);
+  const kept = (Object.keys(fresh) as (keyof Draft)[]).filter((key) => edited.has(key as FieldName));
+  // A goal that names a membrane of another scene cannot be kept.
+  const goals = part.scene === undefined ? draft.goals : fresh.goals;
+  return { ...fresh, ...Object.fromEntries(kept.map((key) => [key, draft[key]])), goals };
 }
 
 export const round = (mm: number): number => Math.round(mm * 10) / 10;

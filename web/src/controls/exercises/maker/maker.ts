@@ -3,17 +3,19 @@ import type { App } from "../../../state/app.ts";
 import type { SceneOutline } from "../../../wire/messages.ts";
 import { sentence } from "../../editor/problems.ts";
 import type { Person } from "../person.ts";
-import { type Draft, draftOf, type FieldName, fieldOf, nameOf, tablesOf } from "./draft.ts";
+import { changed, type Draft, draftOf, type FieldName, fieldOf, nameOf, tablesOf } from "./draft.ts";
 import { type ExerciseSchema, type GoalField, goalFields } from "./goals.ts";
 import { DepthStrip } from "./strip.ts";
 
+const PLACES = ["from", "to", "angle", "wholeTip"] as const; // have their meaning in one scene only
 const WAIT_MS = 300; // after the last change, before the server checks
 
-/** A form for an exercise: goals on a picture of the depths and in fields. `changed` is called after saving. */
-export function exerciseMaker(app: App, person: Person, changed: () => Promise<void>): HTMLElement {
+/** A form for an exercise: goals on a picture of the depths and in fields. `saved` is called after saving. */
+export function exerciseMaker(app: App, person: Person, saved: () => Promise<void>): HTMLElement {
   let scenes: readonly SceneOutline[] = [];
   let fields: readonly GoalField[] = [];
   let draft: Draft | null = null;
+  const edited = new Set<FieldName>(); // by the teacher
   let toml = "";
   const form = element("div", { class: "maker-form" });
   const note = element("p", { class: "maker-note", role: "status" });
@@ -27,7 +29,9 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
   let timer: ReturnType<typeof setTimeout> | undefined;
   const change = (part: Partial<Draft>): void => {
     if (!draft) return;
-    draft = part.scene === undefined ? { ...draft, ...part } : draftOf(scenes.find((s) => s.name === part.scene)!);
+    if (part.scene !== undefined) for (const key of PLACES) edited.delete(key);
+    else if (part.behind === undefined) for (const key of Object.keys(part)) edited.add(key as FieldName);
+    draft = changed(draft, part, scenes.find(({ name }) => name === (part.scene ?? draft?.scene))!, edited);
     if (part.scene !== undefined) build();
     show();
     clearTimeout(timer);
@@ -63,14 +67,14 @@ export function exerciseMaker(app: App, person: Person, changed: () => Promise<v
     const who = { person: person.name.value, group: person.group.value };
     clearTimeout(timer); // a check would clear what the reply says
     const reply = await app.ask({ do: "try_exercise", tables: tables(), ...who });
-    if (showReply(reply, "It runs now.")) await changed();
+    if (showReply(reply, "It runs now.")) await saved();
   };
   const save = async (): Promise<void> => {
     clearTimeout(timer);
     const name = nameOf(draft!.title);
     const ask = { do: "save_exercise", name, tables: tables() } as const;
     const reply = await app.ask({ ...ask, replace: replace.checked });
-    if (showReply(reply, "")) await changed();
+    if (showReply(reply, "")) await saved();
   };
   const download = async (): Promise<void> => {
     if (!(await check())) return;

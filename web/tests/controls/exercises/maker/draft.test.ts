@@ -1,5 +1,12 @@
 import { expect, test } from "vitest";
-import { type Draft, draftOf, fieldOf, nameOf, tablesOf } from "../../../../src/controls/exercises/maker/draft.ts";
+import {
+  changed,
+  type Draft,
+  draftOf,
+  fieldOf,
+  nameOf,
+  tablesOf,
+} from "../../../../src/controls/exercises/maker/draft.ts";
 import { goalFields } from "../../../../src/controls/exercises/maker/goals.ts";
 import type { SceneOutline } from "../../../../src/wire/messages.ts";
 
@@ -54,6 +61,24 @@ test("each goal whose schema has a label has a field, and its table has what the
 test("a new exercise asks for the space between the last two membranes", () => {
   const draft = draftOf(SCENE);
   expect([draft.behind, draft.from, draft.to]).toEqual(["front", 0, 3]);
+});
+
+test("what the teacher has not edited follows the membrane of the goal", () => {
+  const first = draftOf(SCENE);
+  const skin = changed(first, { behind: "skin" }, SCENE, new Set());
+  expect(skin.instruction).toBe("Push in until the skin gives way, and stop.");
+  expect([skin.space, skin.to]).toEqual(["the space behind the skin", 3.6]);
+  const own = { ...first, instruction: "Slowly!", goals: { stay: 9 } };
+  const kept = changed(own, { behind: "skin" }, SCENE, new Set(["instruction"]));
+  expect([kept.instruction, kept.space, kept.goals]).toEqual(["Slowly!", "the space behind the skin", { stay: 9 }]);
+});
+
+test("a needle for a vessel is slanted, and its whole tip must be inside", () => {
+  const membranes = SCENE.membranes.map((one) => ({ ...one, behind: one.name === "front" ? "blood" : "fat" }));
+  const vein = { ...SCENE, membranes } as SceneOutline;
+  expect(draftOf(vein)).toMatchObject({ angle: 30, wholeTip: true, space: "the vessel" });
+  expect(draftOf(vein).instruction).toBe("Push in at 30 degrees until the front gives way, and stop.");
+  expect(changed(draftOf(vein), { behind: "skin" }, vein, new Set())).toMatchObject({ angle: 90, wholeTip: false });
 });
 
 test("the tables have only the goals that are asked for", () => {
