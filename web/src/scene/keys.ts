@@ -7,7 +7,6 @@ import type { OrbitCamera } from "./camera.ts";
 const STEP = 0.25e-3; // m, of a key that is pressed
 const LONG = 4;
 const TURN = Math.PI / 90;
-const WAIT_MS = 250; // a key that is held longer goes on moving the needle
 const STEPS_PER_S = 30; // while it is held: 7.5 mm/s, with Shift 30 mm/s, or 60°/s
 const LONGEST_MS = 250; // of a frame: a page that stalled does not make up for it with a jump
 
@@ -53,8 +52,11 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     " ": () => thumb.push("key", FIRM),
   };
   const keyOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
-  /** The held keys that move the needle, with the time until which each has moved it, ms. */
-  const held = new Map<string, number>();
+  /**
+   * The held keys that move the needle, with the time until which each has moved it, ms; null: it may be a tap. That it
+   * is held is known from the keyboard's first repeat, or from another key: then the keyboard repeats only that one.
+   */
+  const held = new Map<string, number | null>();
 
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -66,16 +68,18 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     long = event.shiftKey ? LONG : 1;
     // A key held since an earlier run must be released first.
     if (!event.repeat) run = hand.run;
-    else if (move || run !== hand.run) return;
+    else if (run !== hand.run) return;
+    for (const [each, until] of held)
+      if (until === null && (each !== key || event.repeat)) held.set(each, performance.now());
     act?.();
-    if (!move) return;
+    if (!move || event.repeat) return;
     move(1);
-    held.set(key, performance.now() + WAIT_MS);
+    held.set(key, null);
   });
   everyFrame((now) => {
     if (run !== hand.run) held.clear();
     for (const [key, until] of held) {
-      if (now <= until) continue;
+      if (until === null || now <= until) continue;
       moves[key]!((Math.min(now - until, LONGEST_MS) / 1e3) * STEPS_PER_S);
       held.set(key, now);
     }

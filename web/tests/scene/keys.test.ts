@@ -34,6 +34,7 @@ beforeEach(() => {
   ); // biome-ignore format: short
 });
 afterEach(() => {
+  canvas.dispatchEvent(new Event("blur")); // its frames go on
   vi.unstubAllGlobals();
   vi.restoreAllMocks();
 });
@@ -41,21 +42,26 @@ afterEach(() => {
 it("a tap is one step; a held key moves by time, whatever the keyboard repeats and whatever other keys do", () => {
   key("keydown", "ArrowDown");
   expect(deep()).toBeCloseTo(0.25e-3, 12);
-  key("keydown", "ArrowDown", { repeat: true });
   frame(250);
   expect(deep()).toBeCloseTo(0.25e-3, 12);
-  key("keydown", " "); // the keyboard no longer repeats the arrow
-  for (let now = 260; now <= 1250; now += 10) frame(now);
+  key("keydown", " "); // the keyboard will not repeat the arrow
+  for (let now = 10; now <= 1000; now += 10) frame(now);
   expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
   expect(pushes).toEqual([4]);
   key("keyup", "ArrowDown");
   frame(1400);
   expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
   expect(pushes).toEqual([4]); // the thumb goes on
+  key("keydown", "ArrowUp");
+  key("keydown", "ArrowUp", { repeat: true });
+  key("keydown", "ArrowUp", { repeat: true });
+  frame(200);
+  expect(deep()).toBeCloseTo(7.5e-3 - 1.5e-3, 9);
 });
 
 it("a page that stalled does not jump, and a view that loses the focus moves nothing", () => {
   key("keydown", "ArrowDown");
+  key("keydown", "ArrowDown", { repeat: true });
   frame(5250);
   expect(deep()).toBeCloseTo(0.25e-3 * (1 + 0.25 * 30), 9);
   canvas.dispatchEvent(new Event("blur"));
@@ -66,6 +72,7 @@ it("a page that stalled does not jump, and a view that loses the focus moves not
 
 it("a key that was held when a new run began moves nothing until it is pressed anew", () => {
   key("keydown", "ArrowDown");
+  key("keydown", "ArrowDown", { repeat: true });
   hand.run = 1;
   const before = deep();
   frame(500);
