@@ -7,9 +7,9 @@ export function controlLine(app: App): HTMLElement {
   const words = element("span", { role: "status", class: "control-words" });
   const take = takeControl(app);
   const show = (): void => {
-    const { holder, you } = app.control.value;
-    const other = holder === null ? withoutControl(app.control.value) : `Page ${holder} has control`;
-    words.textContent = app.connection.value.state === "open" ? (you ? "You have control" : other) : "";
+    const { value: control } = app.control;
+    const all = control.you ? "You have control" : withoutControl(control);
+    words.textContent = app.connection.value.state === "open" ? all : "";
   };
   app.control.watch(show);
   app.connection.watch(show);

@@ -7,6 +7,12 @@ import { stateButton } from "./state_button.ts";
 import { themeSwitch } from "./theme_switch.ts";
 import { startTour } from "./tour.ts";
 
+const toTabs = (): void => {
+  const tab = document.querySelector<HTMLElement>(".side [role=tab][aria-selected=true]");
+  tab?.scrollIntoView({ block: "nearest" });
+  tab?.focus();
+};
+
 /** The header: scene, device, state of the force, control and connection. */
 export const headerBar: Panel = (host, app) => {
   const device = element("span", { class: "device" });
@@ -17,6 +23,8 @@ export const headerBar: Panel = (host, app) => {
     device.title = info ? `${info.backend}, at most ${info.max_force} N, ${info.rate} Hz${second}` : "";
   });
   host.append(
+    // Past the view and the plots, which have most of the page's tab stops.
+    element("button", { type: "button", class: "skip-link", onclick: toTabs }, "Go to the tabs"),
     element(
       "h1",
       { class: "brand" },

@@ -21,10 +21,16 @@ const WORDS: Readonly<Record<Phase, PhaseWords>> = {
   barred: { kind: "barred", symbol: "✕", word: "barred", detail: "" },
 };
 
+const DETAILS: Partial<Record<Phase, string>> = {
+  sticking: "at rest",
+  sliding_in: "going in",
+  sliding_out: "coming out",
+};
+
 /** The words for a phase's number. A tip inside the membrane and at least `through` deep (m) has passed through it. */
 export function phaseWords(phase: number, depth: number, through: number): PhaseWords {
   const name = PHASES[phase] ?? "outside";
   const words = WORDS[name];
   if (name === "outside" || name === "barred" || !(depth >= through)) return words;
-  return { kind: "through", symbol: "◆", word: "through", detail: words.word };
+  return { kind: "through", symbol: "◆", word: "through", detail: DETAILS[name] ?? "" };
 }

@@ -9,7 +9,8 @@ describe("the phase in words", () => {
     const all = [0, 1, 2, 3, 4].map((phase) => phaseWords(phase, 1e-3, 5e-3));
     expect(all.map(({ word }) => word)).toEqual(["outside", "sticking", "sliding in", "sliding out", "barred"]);
     const through = phaseWords(2, 6e-3, 5e-3);
-    expect(through).toMatchObject({ word: "through", detail: "sliding in" });
+    expect(through).toMatchObject({ word: "through", detail: "going in" });
+    expect(phaseWords(1, 6e-3, 5e-3)).toMatchObject({ word: "through", detail: "at rest" });
     expect(new Set([...all, through].map(({ symbol }) => symbol)).size).toBe(6);
     expect(new Set([...all, through].map(({ kind }) => kind)).size).toBe(6);
   });

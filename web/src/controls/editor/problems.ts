@@ -28,11 +28,18 @@ function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
 
 /** A problem as a sentence, with its path and value. */
 export const sentence = ({ path, value, reason }: ProblemPart): string =>
-  path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
+  path ? `${plainPaths(path)}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
+
+/** A text without a scene file's own names: "membrane 1, stiffness" for "membrane[0].stiffness_N_per_mm". */
+const plainPaths = (text: string): string =>
+  text.replace(/\bmembrane\[(\d+)\]\.(\w+)/g, (_, index, key: string) => {
+    const name = key.replace(/_(?:N|mm|rad|deg|s)(?:_per_mm)?$/, "").replaceAll("_", " ");
+    return `membrane ${Number(index) + 1}, ${name}`;
+  });
 
 /** A reason as a sentence, without the number of the paper's equation. */
 export function words(reason: string): string {
-  const plain = reason.replace(/, K06 \(\d+\)$/, "");
+  const plain = plainPaths(reason.replace(/, K06 \(\d+\)$/, ""));
   const capital = plain.charAt(0).toUpperCase() + plain.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

@@ -11,13 +11,18 @@ test("a problem is shown at the field that caused it, all others at the top", ()
       { path: "membrane[1].friction", value: "3.6", reason: "the largest value that is allowed is 3.477, K06 (7)" },
       { path: "membrane[0].point_mm[2]", value: "x", reason: "must be a number" },
       { path: "servo.rate_hz", value: "0", reason: "must be greater than 0" },
-      { path: "", value: "", reason: "the loop has ended" },
+      { path: "membrane[0].stiffness_N_per_mm", value: "0", reason: "must be greater than 0" },
+      { path: "", value: "", reason: "membrane[1].tail_length_mm needs a tail" },
     ],
     shown,
   );
   expect(fields.get("membrane[1].friction")).toBe("The largest value that is allowed is 3.477.");
   expect(fields.get("membrane[0].point_mm")).toBe("Must be a number.");
-  expect(others).toEqual(["servo.rate_hz = 0: Must be greater than 0.", "The loop has ended."]);
+  expect(others).toEqual([
+    "servo.rate_hz = 0: Must be greater than 0.",
+    "membrane 1, stiffness = 0: Must be greater than 0.",
+    "Membrane 2, tail length needs a tail.",
+  ]);
 });
 
 test("a broken bound of the schema is reported before sending", () => {
