@@ -1,5 +1,6 @@
 import { handOf } from "../hand/hand.ts";
 import { thumbOf } from "../hand/thumb.ts";
+import { thumbInView } from "../hand/thumb_button.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
@@ -36,6 +37,7 @@ export const view: Panel = (host, app) => {
   }); // biome-ignore format: short
   const help = gestureHelp();
   host.append(canvas, help);
+  thumbInView(host, app);
   const theme = new Theme();
   const orbit = new OrbitCamera();
   const trouble = element("p", { class: "view-trouble", role: "status", hidden: true });

@@ -41,11 +41,15 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   });
   let shown = "";
   let begun = false;
-  // The button that was pressed is hidden now, or the page has just been loaded. The keys of the view move the needle.
+  // The button that was pressed is hidden now, or the page has just been loaded. The keys of the view move the needle,
+  // and a page that scrolls stood at the list.
   const begin = (): void => {
     const running = app.exercise.value?.running ?? false;
-    if (running && !begun && app.control.value.you)
-      document.querySelector<HTMLElement>(".view-main > canvas")?.focus({ preventScroll: true });
+    if (running && !begun && app.control.value.you) {
+      const view = document.querySelector<HTMLElement>(".view-main > canvas");
+      view?.focus({ preventScroll: true });
+      view?.scrollIntoView({ block: "start" });
+    }
     begun = running && app.control.value.you;
   };
   app.control.watch(begin);

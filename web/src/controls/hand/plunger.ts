@@ -1,5 +1,6 @@
 import { fixedNumber } from "../../format.ts";
-import { FIRM, thumbOf } from "../../hand/thumb.ts";
+import { thumbOf } from "../../hand/thumb.ts";
+import { thumbButton } from "../../hand/thumb_button.ts";
 import { element, everyFrame } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 
@@ -11,24 +12,9 @@ const isEmpty = (injected: number, volume: number): boolean => injected > 0.9 * 
 /** The syringe, in scenes that have one: a button that pushes while it is held, and what the thumb feels. */
 export function plungerRows(app: App): HTMLElement {
   const thumb = thumbOf(app);
-  const push = element("button", { type: "button", class: "button", "aria-pressed": "false" }, "Hold to push");
-  const hold = (on: boolean): void => thumb.push("button", on ? FIRM : 0);
-  push.addEventListener("pointerdown", (event) => {
-    push.setPointerCapture(event.pointerId);
-    hold(true);
-  });
-  for (const end of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) {
-    push.addEventListener(end, () => hold(false));
-  }
-  push.addEventListener("keydown", (event) => {
-    if (event.key !== " " && event.key !== "Enter") return;
-    event.preventDefault();
-    if (!event.repeat) hold(true);
-  });
-  push.addEventListener("keyup", () => hold(false));
-  thumb.force.watch((force) => push.setAttribute("aria-pressed", String(force > 0)));
+  const push = thumbButton(app, "Hold to push", "button");
 
-  const keys = element("div", { class: "row" }, push, "or hold Space in the view, or turn the wheel there with Alt");
+  const keys = element("div", { class: "row" }, push, "or the button in the view, or Space or Alt and the wheel there");
   const second = element("p", { class: "quiet" });
   app.hello.watch((hello) => {
     const model = hello?.second_device ?? "";
