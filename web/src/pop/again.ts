@@ -1,6 +1,6 @@
 import type { App } from "../state/app.ts";
 import { copiedHistory } from "../state/frozen.ts";
-import { keptWords, Source } from "../state/source.ts";
+import { type Excerpt, keptWords, Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 
 /** The words of every button that shows a pop again. */
@@ -8,6 +8,8 @@ export const SHOW_AGAIN = "Show the pop again, slowly";
 
 /** Shown again: this long before the pop, and this long after it, s. */
 const HALF = 0.05;
+/** The same of the worst moment of an attempt: 3 s at a third of the speed. */
+const [BEFORE_MOMENT, AFTER_MOMENT] = [0.7, 0.3];
 
 /** The last pop of a source at or before its shown tick; null if there is none. */
 export function lastPop(source: Source): MembraneEvent | null {
@@ -28,15 +30,40 @@ function excerptAround(source: Source, event: MembraneEvent): Source | null {
   const excerpt = {
     of,
     event,
+    tick: event.tick,
     first: Math.max(first, event.tick - ticks),
     last: Math.min(end - 1, event.tick + ticks),
   };
-  const made = new Source(`${event.name}, slowly`, false, history, excerpt);
-  made.scene.value = scene;
+  return excerptOf(source, `${event.name}, slowly`, history, excerpt);
+}
+
+function excerptOf(source: Source, title: string, history: Source["history"], excerpt: Excerpt): Source {
+  const made = new Source(title, false, history, excerpt);
+  made.scene.value = source.scene.value;
   made.laws.value = source.laws.value;
   made.events.value = source.events.value;
   made.cursor.value = excerpt.first;
   return made;
+}
+
+/**
+ * Shows the second of a recording around a time of its run (s), slowly; the live run comes after it. Returns whether
+ * the recording has it.
+ */
+export function showMoment(app: App, recording: Source, time: number): boolean {
+  const { history, scene } = recording;
+  const rate = scene.value?.rate ?? 0;
+  const tick = history.first + Math.round((time - history.timeOf(history.first)) * rate);
+  if (!rate || !(tick >= history.first && tick < history.end)) return false;
+  const excerpt = {
+    of: app.live,
+    event: null,
+    tick,
+    first: Math.max(history.first, tick - Math.round(BEFORE_MOMENT * rate)),
+    last: Math.min(history.end - 1, tick + Math.round(AFTER_MOMENT * rate)),
+  };
+  app.source.value = excerptOf(recording, recording.title, history, excerpt);
+  return true;
 }
 
 /** Shows an event again, slowly, in the view and all plots. Returns whether the page still has its ticks. */
@@ -50,9 +77,9 @@ export function showAgain(app: App, event: MembraneEvent): boolean {
 /** Shows the last pop again, slowly, if there was one. In an excerpt it begins anew. */
 export function showLastAgain(app: App): void {
   const { value: source } = app.source;
-  const pop = source.excerpt?.event ?? lastPop(source);
+  const pop = source.excerpt ? source.excerpt.event : lastPop(source);
   if (pop) showAgain(app, pop);
-  else app.notify("There was no pop yet.");
+  else if (!source.excerpt) app.notify("There was no pop yet.");
 }
 
 /** Goes back to the source that the excerpt is a part of. */

@@ -26,9 +26,9 @@ export function ringOf(source: Source, still: boolean): Ring | null {
   const pop = source.events.value.findLast(({ what, tick }) => what === "pop" && tick <= shown);
   if (!pop || pop.tick < history.first) return null;
   const age = history.timeOf(shown) - history.timeOf(pop.tick);
-  const end = excerpt ? history.timeOf(excerpt.last) - history.timeOf(pop.tick) : RING_S;
+  const end = excerpt?.event ? history.timeOf(excerpt.last) - history.timeOf(pop.tick) : RING_S;
   if (!(age <= end)) return null;
   const done = end > 0 ? age / end : 0;
   if (still) return { event: pop, radius: FIRST + GROWN / 2, alpha: 1 };
-  return { event: pop, radius: FIRST + GROWN * (1 - (1 - done) ** 3), alpha: excerpt ? 1 : 1 - done ** 2 };
+  return { event: pop, radius: FIRST + GROWN * (1 - (1 - done) ** 3), alpha: excerpt?.event ? 1 : 1 - done ** 2 };
 }

@@ -4,9 +4,12 @@ import { Signal } from "./signal.ts";
 
 /** The part of another source that is shown again. */
 export interface Excerpt {
+  /** The source that is shown after it. */
   readonly of: Source;
-  /** The event in its middle. */
-  readonly event: MembraneEvent;
+  /** The pop in its middle; null: the worst moment of an attempt. */
+  readonly event: MembraneEvent | null;
+  /** The tick from which its time counts. */
+  readonly tick: number;
   /** Its first and last tick. */
   readonly first: number;
   readonly last: number;

@@ -2,7 +2,7 @@ import { beforeEach, expect, it } from "vitest";
 import { Playback, SLOWDOWNS } from "../../src/controls/recordings/playback.ts";
 import { showingOf } from "../../src/controls/recordings/showing.ts";
 import { Plots } from "../../src/plots/shared.ts";
-import { leaveExcerpt, showAgain, showLastAgain } from "../../src/pop/again.ts";
+import { leaveExcerpt, showAgain, showLastAgain, showMoment } from "../../src/pop/again.ts";
 import { ringOf } from "../../src/pop/ring.ts";
 import { App } from "../../src/state/app.ts";
 import { Source } from "../../src/state/source.ts";
@@ -78,10 +78,24 @@ it("works in the replay of a recording, and goes back to it at the same tick", (
   recording.cursor.value = 1250;
   app.source.value = recording;
   showLastAgain(app);
-  expect(app.source.value.excerpt?.event.tick).toBe(700); // the last one before the shown tick
+  expect(app.source.value.excerpt?.tick).toBe(700); // the last one before the shown tick
   expect(app.source.value.history).toBe(recording.history);
   leaveExcerpt(app);
   expect([app.source.value.title, recording.cursor.value]).toEqual(["recording", 1250]);
+});
+
+it("shows the second around the worst moment of a recorded attempt in 3 s, and the live run after it", () => {
+  const recording = new Source("attempt", false, 4000);
+  recording.scene.value = app.live.scene.value;
+  push(recording, 3000);
+  const start = recording.history.timeOf(recording.history.first);
+  expect(showMoment(app, recording, start + 9)).toBe(false); // the page does not hold so much
+  expect(showMoment(app, recording, start + 2)).toBe(true);
+  const showing = showingOf(app, app.source.value);
+  expect([showing.first, showing.last, showing.speed]).toEqual([1300, 2300, 1 / 3]);
+  expect([showing.kind, showing.backWords]).toEqual(["The moment, slowly:", "Back to live"]);
+  leaveExcerpt(app);
+  expect(app.source.value).toBe(app.live);
 });
 
 it("a ring grows from the pop on, and is gone after it; without motion it stays as it is", () => {

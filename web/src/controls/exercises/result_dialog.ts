@@ -1,4 +1,5 @@
 import { element, named } from "../../panel.ts";
+import { showMoment } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
 import { recordingPath, resultPath } from "../../wire/api.ts";
@@ -29,6 +30,12 @@ export function openResult(
   const place = element("div", { class: "trace-place", "aria-live": "polite" });
   const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
     element("button", { type: "button", class: `small ${kind}`, onclick: act }, label);
+  const watchButton = (time: number): HTMLElement => {
+    watch = button("Watch this moment, slowly", () => void showWorst(time));
+    watch.disabled = true;
+    return watch;
+  };
+  let watch: HTMLButtonElement | null = null;
   const look = button("Replay", () => void 0);
   look.disabled = true;
   const dialog = element(
@@ -48,7 +55,7 @@ export function openResult(
       element("p", { class: "quiet" }, [result.person, dateText(result.date)].filter(Boolean).join(" · ")),
     ),
     element("div", { class: "why" }, ...result.reasons.map((reason) => element("p", {}, reason))),
-    ...coachPart(result),
+    ...coachPart(result, result.recording ? watchButton : undefined),
     element(
       "div",
       { class: "two" },
@@ -59,13 +66,13 @@ export function openResult(
     element(
       "footer",
       { class: "tools" },
+      ...(again ? [button("Try again", () => close(again), "primary")] : []),
       look,
       button("Save JSON", () => save("json")),
       button("Save CSV", () => save("csv")),
       ...expertButton(app, result, exercise, changed),
       element("span", { class: "gap" }),
-      ...(again ? [button("Try again", () => close(again))] : []),
-      button("Close", () => dialog.close(), "primary"),
+      button("Close", () => dialog.close(), again ? "" : "primary"),
     ),
   );
   const close = (then: () => void): void => {
@@ -77,19 +84,37 @@ export function openResult(
 
   dialog.addEventListener("close", () => {
     stop.abort();
+    for (const end of watched) end();
     dialog.remove();
   });
+  const watched = closeWhenOver(app, () => dialog.close());
   document.body.append(dialog);
   dialog.showModal();
   dialog.scrollTop = 0; // the focus of its title may have scrolled it
+  let entry: RecordingEntry | undefined;
+  /** The worst moment in the view, and this dialog again after it. */
+  const showWorst = async (time: number): Promise<void> => {
+    if (watch) watch.disabled = true;
+    const source = entry && (await fetchWhole(app, entry, place, stop.signal));
+    if (watch) watch.disabled = false;
+    if (!source || stop.signal.aborted || !showMoment(app, source, time)) return;
+    const shown = app.source.value;
+    dialog.close();
+    const end = app.source.watch((now) => {
+      if (now === shown) return;
+      queueMicrotask(() => end());
+      if (now.live && !app.exercise.value?.running) openResult(app, result, title, exercise, again, changed);
+    });
+  };
   void drawTrace(app, result, exercise, place, stop.signal).then((entries) => {
-    const entry = entries.find(({ name }) => name === result.recording);
+    entry = entries.find(({ name }) => name === result.recording);
     if (!entry) return;
+    if (watch) watch.disabled = false;
     look.disabled = false;
     look.addEventListener("click", () => {
       look.disabled = true;
-      void fetchWhole(app, entry, place, stop.signal).then(async (source) => {
-        const expert = source && (await expertSource(app, exercise, entry.name, entries, stop.signal));
+      void fetchWhole(app, entry!, place, stop.signal).then(async (source) => {
+        const expert = source && (await expertSource(app, exercise, entry!.name, entries, stop.signal));
         look.disabled = false;
         if (!source) return;
         close(() => {
@@ -104,6 +129,25 @@ export function openResult(
       });
     });
   });
+}
+
+/**
+ * Closes an old result when another attempt begins, and in a page that looks on also when the needle of a later run
+ * touches something: nobody may be there to close it. Returns what ends that.
+ */
+function closeWhenOver(app: App, close: () => void): (() => void)[] {
+  const { run, live, exercise, control } = app;
+  const old = live.events.value.at(-1);
+  const began = run.value;
+  return [
+    exercise.watch((status) => {
+      if (status?.running) close();
+    }),
+    live.events.watch((events) => {
+      if (control.value.you || events.length === 0 || events.at(-1) === old || run.value === began) return;
+      close();
+    }),
+  ];
 }
 
 function table(result: Result): HTMLElement {

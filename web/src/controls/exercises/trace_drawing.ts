@@ -57,7 +57,7 @@ function drawTrace(
 ): void {
   const touch = result.events.find(({ what }) => what === "touch")?.time ?? trace.time[0] ?? 0;
   const from = indexAt(trace.time, touch - BEFORE);
-  const to = trace.time.length;
+  const to = endOf(trace, result, touch);
   const start = trace.time[from] ?? 0;
   const end = Math.max(trace.time[to - 1] ?? 1, start + 1e-3);
 
@@ -83,8 +83,8 @@ function drawTrace(
   drawAxes(pen, force, theme, { x: "time since the first contact (s)", y: "model force (N)" });
   drawMarks(pen, depth, force, result, touch, end, theme);
   const line = (pane: Pane, values: Float64Array, gain: number, stroke: Stroke): void => {
-    const xs = Float32Array.from(trace.time.subarray(from), (time) => pane.x.px(time - touch));
-    const ys = Float32Array.from(values.subarray(from), (value) => pane.y.px(gain * value));
+    const xs = Float32Array.from(trace.time.subarray(from, to), (time) => pane.x.px(time - touch));
+    const ys = Float32Array.from(values.subarray(from, to), (value) => pane.y.px(gain * value));
     const path = new Polyline();
     decimate(xs, ys, 0, to - from, path);
     pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.line(path, stroke));
@@ -99,6 +99,11 @@ function drawTrace(
   const text = peakText(result);
   const left = Math.min(px + 7, width - textWidth(text));
   pen.text(left, py, text, { colour: colourOf(theme, 0), bold: true, halo: theme.panel });
+}
+
+/** The drawing ends with the decision, as the measures do. */
+function endOf({ time }: Trace, { metrics }: Result, touch: number): number {
+  return metrics.total_time > 0 ? Math.min(indexAt(time, touch + metrics.total_time) + 1, time.length) : time.length;
 }
 
 /** The expert's curves, dashed, as far as the attempt lasts. */

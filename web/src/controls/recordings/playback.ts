@@ -1,6 +1,8 @@
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
 /** For an excerpt around a pop: this many times slower than it was. */
 export const SLOWDOWNS = [20, 50, 100] as const;
+/** The same for the worst moment of an attempt. */
+export const MOMENT_SLOWDOWNS = [3, 10, 30] as const;
 
 /** The playback position in a recording, in ticks. It moves only by calls, never by itself. */
 export class Playback {

@@ -1,7 +1,7 @@
 import { leaveExcerpt } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
-import { SLOWDOWNS, SPEEDS } from "./playback.ts";
+import { MOMENT_SLOWDOWNS, SLOWDOWNS, SPEEDS } from "./playback.ts";
 
 /** How the replay bar shows a source: a whole recording, or an excerpt around a pop. */
 export interface Showing {
@@ -22,6 +22,7 @@ export interface Showing {
 }
 
 let slowdown: number = SLOWDOWNS[1]; // the last one that the user chose
+let momentSlowdown: number = MOMENT_SLOWDOWNS[0];
 
 export const showingOf = (app: App, source: Source): Showing =>
   source.excerpt ? excerptShowing(app, source, source.excerpt) : recordingShowing(app, source);
@@ -46,29 +47,31 @@ function recordingShowing(app: App, { history, paused }: Source): Showing {
 }
 
 function excerptShowing(app: App, { history }: Source, excerpt: NonNullable<Source["excerpt"]>): Showing {
-  const pop = history.timeOf(excerpt.event.tick);
+  const pop = excerpt.event !== null;
+  const middle = history.timeOf(excerpt.tick);
   const backWords = excerpt.of.live
     ? "Back to live"
     : excerpt.of.paused
       ? "Back to the pause"
       : "Back to the recording";
   const ms = (tick: number): string => {
-    const text = ((history.timeOf(tick) - pop) * 1e3).toFixed(1);
+    const text = ((history.timeOf(tick) - middle) * 1e3).toFixed(1);
     return `${text.startsWith("-") ? "−" : "+"}${text.replace("-", "").padStart(4, "\u2007")}`;
   };
   return {
     first: excerpt.first,
     last: excerpt.last,
-    kind: "Pop again:",
-    speeds: SLOWDOWNS.map((times) => [1 / times, `${times}× slower`]),
+    kind: pop ? "Pop again:" : "The moment, slowly:",
+    speeds: (pop ? SLOWDOWNS : MOMENT_SLOWDOWNS).map((times) => [1 / times, `${times}× slower`]),
     get speed() {
-      return 1 / slowdown;
+      return 1 / (pop ? slowdown : momentSlowdown);
     },
     set speed(speed) {
-      slowdown = Math.round(1 / speed);
+      if (pop) slowdown = Math.round(1 / speed);
+      else momentSlowdown = Math.round(1 / speed);
     },
     time: (tick) => `${ms(tick)} ms`,
-    spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the pop`,
+    spokenTime: (tick) => `${ms(tick).replaceAll("\u2007", "")} milliseconds from the ${pop ? "pop" : "moment"}`,
     backWords,
     backTitle: `${backWords} (Escape)`,
     back: () => leaveExcerpt(app),

@@ -1,0 +1,57 @@
+"""The result of an attempt: one thing to change, its moment again, and a page that looks on."""
+
+import pytest
+from person import opened, own_exercise, push, ready, tab
+from playwright.sync_api import expect
+from studio_process import StudioProcess
+
+TITLE = "Over at a touch"
+
+
+@pytest.fixture
+def studio(tmp_path):
+    """A studio that lists an exercise that is lost with the first force."""
+    limit = 'kind = "peak_force"\nat_most_N = 0.02'
+    file = own_exercise(tmp_path, TITLE, ('kind = "time_limit"\nseconds = 60', limit))
+    with StudioProcess(tmp_path, "k06-fig10", more=["--exercise", str(file)]) as running:
+        yield running
+
+
+def lose(page):
+    """Pushes until the result is there."""
+    expect(page.locator(".running")).to_be_visible()
+    expect(page.locator(".header")).to_contain_text("Force on")
+    for _ in range(60):
+        push(page, "Shift+ArrowDown", 3)
+        if page.get_by_role("dialog").count():
+            break
+
+
+def test_the_coach_shows_its_moment_and_a_page_that_looks_on_follows(page, studio, browser):
+    ready(page)
+    page.get_by_role("button", name="Go to the tabs").press("Enter")  # past the plots
+    expect(page.get_by_role("tab", selected=True)).to_be_focused()
+    tab(page, "Exercises")
+    card = page.locator("article.exercise", has_text=TITLE)
+    card.get_by_role("button", name="Start").click()
+    with opened(browser, studio.url) as projector:
+        expect(projector.locator(".header")).to_contain_text("Another page has control")
+        lose(page)
+        dialog, shown = page.get_by_role("dialog"), projector.get_by_role("dialog")
+        expect(dialog.locator(".coach.change p")).to_have_count(1)
+        expect(dialog.locator(".coach.change")).to_contain_text("0.02 N are allowed")
+        expect(dialog.locator("footer").get_by_role("button").first).to_have_text("Try again")
+        expect(shown).to_contain_text("You pushed with more than 0.02 N")
+        expect(shown.get_by_role("button", name="Try again")).to_have_count(0)
+
+        dialog.get_by_role("button", name="Watch this moment, slowly").click()
+        replay = page.locator(".player")
+        expect(replay).to_contain_text("The moment, slowly:")
+        expect(dialog).to_be_hidden()
+        replay.get_by_role("button", name="Back to live").click()
+        expect(dialog).to_contain_text("You pushed with more than 0.02 N")  # it is here again
+
+        dialog.get_by_role("button", name="Try again").click()
+        expect(page.locator(".running")).to_be_visible()
+        expect(projector.locator(".running")).to_be_visible()
+        expect(shown).to_be_hidden()
