@@ -165,7 +165,7 @@ FIRST = (wrong_angle, too_short, pressed, left_the_space)  # before what the goa
 LAST = (trembled, paused, went_aside)
 
 # Praise that a reader would take for the opposite of what is to change: subjects of both.
-CONTRADICTS = {"line": ("aside", "pauses"), "aside": ("line",), "left": ("tremor",), "speed": ("pauses",)}
+CONTRADICTS = {"line": ("aside", "pauses"), "left": ("tremor",), "speed": ("pauses",)}
 
 
 class Coach:
