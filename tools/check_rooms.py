@@ -78,6 +78,8 @@ ROOMS = (
     "web/src/scene",
     "web/src/slice",
     "web/src/controls",
+    "web/src/stage",
+    "web/src/bench.ts",
     "web/src/layout.ts",
     "web/src/main.ts",
     "web/src/static.ts",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 
-from playwright.sync_api import Browser, Playwright
+from playwright.sync_api import Browser, BrowserContext, Playwright
 
 # Without a graphics card, Chromium renders in software. Only WebGL must be enabled explicitly.
 FLAGS = [
@@ -19,3 +19,8 @@ def launch(playwright: Playwright) -> Browser:
     found = next(filter(None, map(shutil.which, names)), None)
     assert found, "Chromium is missing: apt-get install chromium-headless-shell (or chromium)"
     return playwright.chromium.launch(executable_path=found, args=FLAGS)
+
+
+def on_the_bench(context: BrowserContext) -> None:
+    """The studio's page opens with all panels, as for a visitor who left it so; else it opens with the stage."""
+    context.add_cookies([{"name": "punctura_page", "value": "bench", "domain": "127.0.0.1", "path": "/"}])

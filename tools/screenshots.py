@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import studio_states as do
-from chromium import launch
+from chromium import launch, on_the_bench
 from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 from studio_process import StudioProcess
@@ -67,6 +67,7 @@ def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str, to
             viewport=viewport, color_scheme=colours, reduced_motion="reduce", has_touch=touched
         )
         context.set_default_timeout(do.PATIENCE)
+        on_the_bench(context)
         context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
         page = context.new_page()
         page.goto(studio.url)

@@ -6,14 +6,14 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from chromium import launch
+from chromium import launch, on_the_bench
 from playwright.sync_api import sync_playwright
 
 PATIENCE_MS = 120_000  # long enough for a busy computer
 
 # Counts the draw calls, so that a frame without new content does not count.
 COUNT = """
-window.drawn = { frames: 0, plots: 0, view: 0 };
+window.drawn = { frames: 0, plots: 0, view: 0, curve: 0 };
 const frame = () => { window.drawn.frames++; requestAnimationFrame(frame); };
 requestAnimationFrame(frame);
 const wipe = CanvasRenderingContext2D.prototype.clearRect;
@@ -25,15 +25,27 @@ CanvasRenderingContext2D.prototype.clearRect = function (...of) {
   }
   return wipe.apply(this, of);
 };
+let curveAt = -1;
+const line = CanvasRenderingContext2D.prototype.stroke;
+CanvasRenderingContext2D.prototype.stroke = function (...of) {
+  if (this.canvas.parentElement?.className === 'stage-curve' && curveAt !== window.drawn.frames) {
+    curveAt = window.drawn.frames;
+    window.drawn.curve++;
+  }
+  return line.apply(this, of);
+};
 const clear = WebGL2RenderingContext.prototype.clear;
 WebGL2RenderingContext.prototype.clear = function (...of) { window.drawn.view++; return clear.apply(this, of); };
 """
 
 
 class WatchedPage:
-    """A viewer at `url`. `rates` counts since its last call; `heap_mb` is measured after garbage collection."""
+    """A viewer at `url`, at the bench or the stage.
 
-    def __init__(self, url: str, width: int = 1440, height: int = 900) -> None:
+    `rates` counts since its last call; `heap_mb` is measured after garbage collection.
+    """
+
+    def __init__(self, url: str, width: int = 1440, height: int = 900, bench: bool = True) -> None:
         self.errors: list[str] = []
         self._playwright = sync_playwright().start()
         self._browser = launch(self._playwright)
@@ -41,9 +53,11 @@ class WatchedPage:
         self._page.set_default_timeout(PATIENCE_MS)
         self._page.on("pageerror", lambda error: self.errors.append(str(error)))
         self._page.add_init_script(COUNT)
+        if bench:
+            on_the_bench(self._page.context)
         self._page.context.add_cookies([{"name": "punctura_tour", "value": "seen", "url": url}])
         self._page.goto(url)
-        self._page.wait_for_function("window.drawn.plots > 0")
+        self._page.wait_for_function(f"() => window.drawn.{'plots' if bench else 'curve'} > 0")
         self._tools = self._page.context.new_cdp_session(self._page)
         self._before, self._at = self._drawn(), time.monotonic()
 
@@ -52,7 +66,7 @@ class WatchedPage:
         return counts
 
     def rates(self) -> dict[str, float]:
-        """Frames per second of the browser, the first plot and the 3-D view."""
+        """Frames per second of the browser, the first plot, the 3-D view and the stage's curve."""
         now, drawn = time.monotonic(), self._drawn()
         rates = {name: (drawn[name] - self._before[name]) / (now - self._at) for name in drawn}
         self._before, self._at = drawn, now

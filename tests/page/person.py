@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from chromium import on_the_bench
 from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
@@ -40,12 +41,17 @@ window.cancelAnimationFrame = (id) => {
 };"""
 
 
-def new_context(browser: Browser, scale: float = 0.5, fewer: bool = True, **options: Any) -> BrowserContext:
+def new_context(
+    browser: Browser, scale: float = 0.5, fewer: bool = True, bench: bool = True, **options: Any
+) -> BrowserContext:
     """A context of the browser that is light for the processor, which draws without a graphics card.
 
     scale: of the resolution. Half of it is a quarter of the pixels, and nobody looks. fewer: pictures a second.
+    bench: it remembers the bench; else the stage opens, as for a new visitor.
     """
     context = browser.new_context(device_scale_factor=scale, reduced_motion="reduce", **options)
+    if bench:
+        on_the_bench(context)
     context.set_default_timeout(PATIENCE)
     if fewer:
         context.add_init_script(FEWER_PICTURES)
@@ -53,14 +59,16 @@ def new_context(browser: Browser, scale: float = 0.5, fewer: bool = True, **opti
 
 
 @contextmanager
-def opened(browser: Browser, url: str, sound: str = "off", script: str = "", fewer: bool = True) -> Iterator[Page]:
+def opened(
+    browser: Browser, url: str, sound: str = "off", script: str = "", fewer: bool = True, bench: bool = True
+) -> Iterator[Page]:
     """The page at the address, in a context of its own. Every error of its script fails the test.
 
     sound: an earlier answer, "on" or "off"; empty: the page asks. script: runs before the page's own. fewer: pictures
-    a second than the browser gives.
+    a second than the browser gives. bench: else the stage opens.
     """
     errors: list[str] = []
-    context = new_context(browser, fewer=fewer, viewport={"width": 1440, "height": 900})
+    context = new_context(browser, fewer=fewer, bench=bench, viewport={"width": 1440, "height": 900})
     if sound:
         context.add_cookies([{"name": "punctura_sound", "value": sound, "url": url}])
     if script:

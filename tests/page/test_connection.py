@@ -1,5 +1,6 @@
 """The page when its server goes, and when someone else looks on."""
 
+from chromium import on_the_bench
 from person import ready
 from playwright.sync_api import expect
 from studio_process import StudioProcess
@@ -36,6 +37,7 @@ def test_a_page_whose_token_is_of_another_run_says_so_and_tries_no_more(page, st
 def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
+    on_the_bench(second.context)
     second.add_init_script(NO_STORAGE)
     second.goto(studio.url)
     expect(second.get_by_role("button", name="Take control").first).to_be_visible()

@@ -32,3 +32,10 @@ export function named<E extends HTMLElement>(host: E, name: string): E {
   host.textContent = host.title = name;
   return host;
 }
+
+/** A panel in a place of its own. label: for screen readers. */
+export function placed(name: string, label: string, panel: Panel, app: App): HTMLElement {
+  const host = element("section", { class: `panel ${name}`, "aria-label": label });
+  panel(host, app);
+  return host;
+}

@@ -13,7 +13,6 @@ from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket
 
 from punctura import __version__
@@ -25,7 +24,8 @@ from punctura.studio.connections import Connections
 from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
-from punctura.studio.security import PROTOCOL, WITH_TOKEN, Guard
+from punctura.studio.page_files import PageFiles
+from punctura.studio.security import PROTOCOL, TOKEN_PART, WITH_TOKEN, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
@@ -72,7 +72,7 @@ class Figures:
         return None
 
 
-_ASSET = re.compile(r"(?<=\")\./assets/[^\"?]+(?=\")")
+_ASSET = re.compile(r"(?<=\")\./assets/(?=[^\"?]+\")")
 NO_PAGE = "The page has not been built: npm ci && npm run build in web/ does it."
 
 
@@ -108,8 +108,10 @@ class Studio:
         if not index.is_file():
             return PlainTextResponse(NO_PAGE + "\n", 503)
         text = index.read_text(encoding="utf-8")
-        if request.scope[WITH_TOKEN]:  # then these are not refused when requests without the token are too many
-            text = _ASSET.sub(rf"\g<0>?token={self.token}", text)
+        # With the token they are not refused when requests without it are too many. It stands in the path, so that the
+        # addresses by which these files load each other have it too.
+        if request.scope[WITH_TOKEN]:
+            text = _ASSET.sub(rf"\g<0>{TOKEN_PART}{self.token}/", text)
         return HTMLResponse(text)
 
     async def access(self, request: Request) -> Response:
@@ -147,7 +149,9 @@ class Studio:
             self.figures.route(),
         ]
         if self.page.is_dir():
-            routes.append(Mount("/", StaticFiles(directory=self.page)))
+            assets = PageFiles(directory=self.page / "assets", check_dir=False)
+            routes.append(Mount(f"/assets/{TOKEN_PART}{{token}}", assets))
+            routes.append(Mount("/", PageFiles(directory=self.page)))
         return routes
 
 

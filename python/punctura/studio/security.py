@@ -29,6 +29,7 @@ from punctura.studio.limits import (
 PROTOCOL = "punctura.v1"
 TOKEN_PROTOCOL = "token."
 FREE = ("/assets/", "/figures/")  # public folders
+TOKEN_PART = "token="  # of the path of an asset: /assets/token=TOKEN/page.js
 FREE_FILES = ("/", "/icon.svg", "/favicon.ico")  # a reload of the page has no token in its address
 WITH_TOKEN = "punctura.with_token"  # in the scope: whether the request has the token
 FILES = ("/api/lab/file", "/api/lab/identify")  # a POST may have a file of MOST_TRACE as its body
@@ -198,7 +199,7 @@ def _socket_tokens(scope: Scope) -> list[str]:
 
 def _tokens(scope: Scope, headers: Headers) -> list[str]:
     """From the header, or from the URL, as for links and downloads."""
-    found = []
+    found = [part.removeprefix(TOKEN_PART) for part in scope["path"].split("/") if part.startswith(TOKEN_PART)]
     scheme, _, value = headers.get("authorization", "").partition(" ")
     if scheme.lower() == "bearer":
         found.append(value.strip())

@@ -1,6 +1,7 @@
 """Any client except this run's page is rejected with a status and a message, without an effect on the loop."""
 
 import contextlib
+import gzip
 import http.client
 import json
 import logging
@@ -46,6 +47,25 @@ def test_the_page_and_its_own_requests_come_in(guarded):
     assert get(guarded, "/api/schema", Authorization="Bearer TOKEN")[0] == 200
     assert get(guarded, "/api/schema", Authorization="Bearer TOKEN", Origin="http://127.0.0.1:PORT")[0] == 200
     assert get(guarded, "/assets/a.js")[0] == 200
+
+
+def test_the_files_of_the_page_come_compressed_to_whom_takes_it(guarded):
+    for path in ("/assets/a.js", "/assets/token=TOKEN/a.js", "/assets/token=another/a.js"):
+        status, headers, body = get(guarded, path, **{"Accept-Encoding": "br, gzip;q=0.9"})
+        assert (status, headers["content-encoding"], gzip.decompress(body)) == (200, "gzip", b"1")
+        assert headers["content-type"].startswith("text/javascript") and headers["vary"] == "accept-encoding"
+        status, headers, body = get(guarded, path)
+        assert (status, headers["content-encoding"], body) == (200, None, b"1")
+    for path in ("/assets/token=TOKEN/b.js", "/assets/token=TOKEN/../../page_files.py", "/assets/token=TOKEN/"):
+        assert get(guarded, path, **{"Accept-Encoding": "gzip"})[0] == 404
+
+
+def test_a_file_whose_path_has_the_token_is_no_file_for_strangers(guarded, monkeypatch):
+    monkeypatch.setattr(guarded.guard.free, "_rate", 0.0)
+    guarded.guard.free.empty()
+    assert get(guarded, "/assets/token=TOKEN/a.js")[0] == 200
+    for path in ("/assets/a.js", "/assets/token=another/a.js"):
+        assert get(guarded, path)[0] == 429
 
 
 def test_every_answer_forbids_what_a_page_does_not_need(guarded):

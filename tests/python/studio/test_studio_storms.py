@@ -213,7 +213,7 @@ def test_strangers_are_told_that_they_are_too_many_while_the_page_comes_in(guard
             assert b"connection: close" in answer.lower()
     with StudioClient(guarded.address.url) as page:
         page.wait(lambda: page.last)
-        for path in (f"/?token={page.token}", f"/assets/a.js?token={page.token}", "/api/schema"):
+        for path in (f"/?token={page.token}", f"/assets/token={page.token}/a.js", "/api/schema"):
             assert page.get(path)[0] == 200
 
 
@@ -224,7 +224,7 @@ def test_the_page_asks_for_its_files_with_the_token(guarded):
     try:
         with StudioClient(guarded.address.url) as page:
             text = page.get(f"/?token={page.token}")[1].decode()
-            assert text == f'<link href="./icon.svg"><script src="./assets/a.js?token={page.token}"></script>'
+            assert text == f'<link href="./icon.svg"><script src="./assets/token={page.token}/a.js"></script>'
     finally:
         index.write_text(before)
 

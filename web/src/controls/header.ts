@@ -1,4 +1,5 @@
 import { element, type Panel } from "../panel.ts";
+import { pageOf, show } from "../state/page.ts";
 import { layoutMenu } from "./arrange/layout_menu.ts";
 import { connectionLine } from "./connection_line.ts";
 import { controlLine } from "./control_line.ts";
@@ -38,6 +39,16 @@ export const headerBar: Panel = (host, app) => {
     element("span", { class: "gap" }),
     controlLine(app),
     connectionLine(app),
+    element(
+      "button",
+      {
+        type: "button",
+        class: "quiet-button",
+        title: "The tissue, one force and one curve (Alt+B)",
+        onclick: () => show(pageOf(app), "stage"),
+      },
+      "Stage",
+    ),
     layoutMenu(app),
     element(
       "button",

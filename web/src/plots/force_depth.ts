@@ -178,16 +178,17 @@ export const forceDepthPlot: Panel = (host, app) => {
       ...[plots.zoom.value?.from, plots.zoom.value?.to, source.live ? "" : source.cursor.value],
     ].join(" ");
     const held = `${backState} ${surface.changes} ${source.pointed.value}`;
-    const state = `${held} ${history.end}`;
+    const { end } = window;
+    const state = `${held} ${end}`;
     if (state === seen || (held === still && !turn(time))) return; // new ticks alone wait for their turn
     seen = state;
     still = held;
     const now = picture();
     // The fading history is costly to draw. The longer one drawing takes, the longer the wait before the next.
-    if (backState !== back || (history.end !== backEnd && time - backAt > wait)) {
+    if (backState !== back || (end !== backEnd && time - backAt > wait)) {
       const began = performance.now();
       back = backState;
-      backEnd = history.end;
+      backEnd = end;
       backAt = time;
       drawing.arrange(now, surface.width, surface.height, time / 1e3);
       drawing.drawBack(surface.beginBack(), now, theme);

@@ -106,19 +106,22 @@ export function gatherSize(
   bias: number,
   out: Float32Array,
 ): void {
+  eachPart(history, first, end, (slot, n, at) => {
+    for (let i = 0; i < n; i++) out[at + i] = bias + gain * signedSize(history, column, slot + i);
+  });
+}
+
+/** The size of a force in a row, N; negative if it pulls the needle in. */
+export function signedSize(history: History, column: "force" | "model_force", row: number): number {
   const force = history.column(column);
   const axis = history.column("axis");
-  eachPart(history, first, end, (slot, n, at) => {
-    for (let i = 0; i < n; i++) {
-      const from = 3 * (slot + i);
-      const x = force[from]!;
-      const y = force[from + 1]!;
-      const z = force[from + 2]!;
-      const inwards = x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!;
-      const size = Math.sqrt(x * x + y * y + z * z);
-      out[at + i] = bias + gain * (inwards > 0 ? -size : size);
-    }
-  });
+  const from = 3 * row;
+  const x = force[from]!;
+  const y = force[from + 1]!;
+  const z = force[from + 2]!;
+  const inwards = x * axis[from]! + y * axis[from + 1]! + z * axis[from + 2]!;
+  const size = Math.sqrt(x * x + y * y + z * z);
+  return inwards > 0 ? -size : size;
 }
 
 /** A membrane's share of the felt force, along the needle, N: the device scales all shares alike. NaN outside it. */

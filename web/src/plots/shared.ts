@@ -3,11 +3,13 @@ import type { App } from "../state/app.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { Source } from "../state/source.ts";
+import { Rest } from "./rest.ts";
 import { Window } from "./window.ts";
 
 export const SPANS = [2, 5, 20, 80] as const; // s
 export type Span = (typeof SPANS)[number];
 const BUSY_STEP = 4; // px
+const REST_S = 1;
 
 /** State shared by all plots of a page: the shown window of ticks, and who points at a tick. */
 export class Plots {
@@ -48,9 +50,25 @@ export class Plots {
     const { excerpt, history } = source;
     if (zoom) window.set(history, zoom.from, zoom.to);
     else if (excerpt) window.set(history, history.timeOf(excerpt.first), history.timeOf(excerpt.last));
-    else window.follow(history, source.present(), this.span.value, source.live, this.step());
+    else if (!this.waits()) {
+      window.follow(history, source.present(), this.span.value, source.live, this.step());
+      this.followed = `${source.title} ${history.generation} ${this.span.value} ${this.width}`;
+    }
     return window;
   }
+
+  /** A live run at rest moves the window once in REST_S only, so that nothing is drawn meanwhile. */
+  private waits(): boolean {
+    const { source, window } = this;
+    const { history } = source;
+    if (!source.live || source.cursor.value !== null) return false;
+    const rests = this.rest.since(history, window.end);
+    const same = this.followed === `${source.title} ${history.generation} ${this.span.value} ${this.width}`;
+    const late = history.end - window.end > REST_S * (source.scene.value?.rate ?? 1000);
+    return rests && same && !late && window.end > window.first && window.first >= history.first;
+  }
+  private readonly rest = new Rest();
+  private followed = "";
 
   /** The step in which a window moves, s: whole device pixels, so that drawn curves can be moved. */
   private step(): number {

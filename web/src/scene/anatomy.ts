@@ -18,10 +18,16 @@ export interface Extent {
   readonly mmPerNewton: number;
 }
 
+/** A point of the skin, mm, and the direction into it. */
+export function surfaceOf({ membranes: [first] }: SceneView): { point: Vector3; normal: Vector3 } {
+  return {
+    point: new Vector3(...(first?.point ?? [0, 0, 0])).multiplyScalar(MM),
+    normal: new Vector3(...(first?.inward_normal ?? [0, -1, 0])),
+  };
+}
+
 export function extentOf(scene: SceneView): Extent {
-  const first = scene.membranes[0];
-  const origin = new Vector3(...(first?.point ?? [0, 0, 0])).multiplyScalar(MM);
-  const normal = new Vector3(...(first?.inward_normal ?? [0, -1, 0]));
+  const { point: origin, normal } = surfaceOf(scene);
   let deep = 0;
   for (const { point, thickness } of scene.membranes) {
     const front = new Vector3(...point).multiplyScalar(MM).sub(origin).dot(normal);

@@ -148,10 +148,28 @@ export class Block {
     return opacity;
   }
 
-  /** The corner of a layer that is farthest to the right on the screen, for its label. */
+  /** The corners of the block, mm, before the needle moves it; empty if the scene is not drawn as a block. */
+  corners(): Vector3[] {
+    const { cut, size, parts } = this;
+    if (!parts) return [];
+    return [0, this.bottom].flatMap((d) =>
+      [-size, size].flatMap((u) => [0, -DEEP * size].map((w) => cut.point(cut.middle + u, d, w))),
+    );
+  }
+
+  /** Depth of its lower face, mm. */
+  get bottom(): number {
+    return this.parts?.layers.at(-1)?.bottom ?? 0;
+  }
+
+  /** The place of a layer's label. */
   labelPlace(membrane: number, camera: Camera): Vector3 {
     const layer = this.parts?.layers.find((each) => each.membrane === membrane);
-    const depth = layer ? (layer.top + layer.bottom) / 2 : 0;
+    return this.edge(layer ? (layer.top + layer.bottom) / 2 : 0, camera);
+  }
+
+  /** The point of the block at a depth that is farthest to the right on the screen. */
+  edge(depth: number, camera: Camera): Vector3 {
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const side = right.dot(this.cut.along) >= 0 ? 1 : -1;
     const back = right.dot(this.cut.towards) >= 0 ? 0 : DEEP * this.size;

@@ -1,6 +1,8 @@
 import { MathUtils, PerspectiveCamera, Plane, Ray, Vector2, Vector3 } from "three";
+import type { Free } from "./framing.ts";
 
-export type Preset = "oblique" | "side" | "top" | "needle";
+/** front: the cut is parallel to the screen, so that depths are heights. */
+export type Preset = "oblique" | "side" | "top" | "needle" | "front";
 
 const SETTLE_MS = 90;
 const CLOSEST_MM = 4;
@@ -25,13 +27,14 @@ export class OrbitCamera {
   private home = { centre: new Vector3(), radius: 20 };
   private moved = true;
   private fitted = false;
+  private resized = false; // since the last `enclose`
   private readonly reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
   /** Keeps the whole scene in view after a preset. A zoom chosen by the user stays. */
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
-    this.moved = true;
+    this.moved = this.resized = true;
     if (!this.fitted) return;
     this.goal.distance = this.fittingDistance();
     this.now.distance = this.goal.distance;
@@ -57,6 +60,8 @@ export class OrbitCamera {
     if (preset === "oblique") {
       goal.azimuth = MathUtils.degToRad(24);
       goal.elevation = MathUtils.degToRad(20);
+    } else if (preset === "front") {
+      goal.elevation = MathUtils.degToRad(11);
     } else if (preset === "top") {
       goal.elevation = STEEPEST;
     } else if (preset === "needle") {
@@ -68,6 +73,40 @@ export class OrbitCamera {
     // Turns the shorter way.
     this.now.azimuth =
       goal.azimuth + MathUtils.euclideanModulo(this.now.azimuth - goal.azimuth + Math.PI, 2 * Math.PI) - Math.PI;
+  }
+
+  /**
+   * Moves so that all points (mm) are as large as possible in the free part of the view. A zoom chosen by the user
+   * stays.
+   */
+  enclose(points: readonly Vector3[], free: Free): void {
+    if (!this.fitted || points.length === 0) return;
+    const { goal, camera } = this;
+    const high = Math.tan(MathUtils.degToRad(camera.fov / 2));
+    const wide = high * camera.aspect;
+    const back = direction(goal);
+    const right = new Vector3(Math.cos(goal.azimuth), 0, -Math.sin(goal.azimuth));
+    const up = new Vector3().crossVectors(back, right);
+    // In each of two directions the camera sees p between two lines: low * (c.z - p.z) <= p.x - c.x <= high * (...).
+    const between = (axis: Vector3, low: number, high: number): { away: number; middle(away: number): number } => {
+      const most = Math.max(...points.map((p) => p.dot(axis) + high * p.dot(back)));
+      const least = Math.min(...points.map((p) => p.dot(axis) + low * p.dot(back)));
+      return {
+        away: (most - least) / (high - low),
+        middle: (away) => (most - high * away + least - low * away) / 2,
+      };
+    };
+    const x = between(right, (2 * free.left - 1) * wide, (2 * free.right - 1) * wide);
+    const y = between(up, (1 - 2 * free.bottom) * high, (1 - 2 * free.top) * high);
+    const away = Math.max(x.away, y.away);
+    goal.distance = away - this.home.centre.dot(back);
+    goal.target
+      .copy(back)
+      .multiplyScalar(away - goal.distance)
+      .addScaledVector(right, x.middle(away))
+      .addScaledVector(up, y.middle(away));
+    if (this.resized) this.settle();
+    this.resized = false;
   }
 
   orbit(dx: number, dy: number): void {
@@ -110,11 +149,7 @@ export class OrbitCamera {
     }
     if (!this.moved) return false;
     this.moved = false;
-    const flat = Math.cos(now.elevation);
-    this.camera.position
-      .set(flat * Math.sin(now.azimuth), Math.sin(now.elevation), flat * Math.cos(now.azimuth))
-      .multiplyScalar(now.distance)
-      .add(now.target);
+    this.camera.position.copy(direction(now)).multiplyScalar(now.distance).add(now.target);
     this.camera.near = now.distance * 0.05;
     this.camera.far = now.distance + 800;
     this.camera.updateProjectionMatrix();
@@ -154,4 +189,10 @@ export class OrbitCamera {
     const found = ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(seen, point), new Vector3());
     return found?.addScaledVector(normal, -found.clone().sub(point).dot(normal)) ?? null;
   }
+}
+
+/** From the target to the camera. */
+function direction({ azimuth, elevation }: Pose): Vector3 {
+  const flat = Math.cos(elevation);
+  return new Vector3(flat * Math.sin(azimuth), Math.sin(elevation), flat * Math.cos(azimuth));
 }

@@ -6,6 +6,9 @@ import { tangents } from "./slab_shape.ts";
 /** Tilts of the needle (sine) between which the cut turns to follow it. */
 const UPRIGHT = Math.sin(MathUtils.degToRad(14));
 const TILTED = Math.sin(MathUtils.degToRad(28));
+/** How far entry and tip may leave the middle before the drawn part follows, as shares of half its width. */
+const FREE_ENTRY = 0.45;
+const FREE_TIP = 0.75;
 
 /**
  * The plane in which the tissue is cut open: it contains the needle, so that one sees the tip inside. A point of the
@@ -22,6 +25,8 @@ export class Cut {
   centre = 0;
   private readonly right = new Vector3(1, 0, 0);
   private side = 1;
+  /** Where the needle entered, or would enter, at first: the middle of the drawn part; null before that. */
+  private first: number | null = null;
 
   /** origin: a point of the surface, mm; down: the inward normal, of length 1. */
   build(origin: Vector3, down: Vector3): void {
@@ -29,6 +34,12 @@ export class Cut {
     this.down.copy(down);
     tangents(down, this.right, new Vector3());
     this.side = 1;
+    this.first = null;
+  }
+
+  /** The middle of the drawn part along `along`, before the needle has moved. */
+  get middle(): number {
+    return this.first ?? 0;
   }
 
   /** size: half the width of the drawn part. viewer: position of the camera. */
@@ -52,10 +63,18 @@ export class Cut {
     towards.multiplyScalar(this.side);
     const inside = tip.clone().sub(this.origin);
     const depth = Math.max(0, inside.dot(down));
-    const entry = inside.clone().addScaledVector(axis, -depth / Math.max(0.2, Math.abs(axis.dot(down))));
+    const steep = Math.max(0.2, Math.abs(axis.dot(down)));
+    const entry = inside.clone().addScaledVector(axis, -depth / steep);
     // Behind the whole needle, also where it is slightly tilted out of the plane.
     this.w = Math.min(inside.dot(towards), entry.dot(towards));
-    this.centre = follow((inside.dot(along) + entry.dot(along)) / 2, 0.45 * size);
+    // It follows a needle that leaves its middle, and then a tip that is far along the cut.
+    const enters = inside
+      .clone()
+      .addScaledVector(axis, -inside.dot(down) / steep)
+      .dot(along);
+    this.first ??= enters;
+    const entered = this.first + follow(enters - this.first, FREE_ENTRY * size);
+    this.centre = entered + (depth > 0 ? follow(inside.dot(along) - entered, FREE_TIP * size) : 0);
     this.matrix.makeBasis(along, down, towards).setPosition(this.origin);
   }
 

@@ -13,6 +13,7 @@ import type { NeedleLook } from "./needle_look.ts";
 import type { Theme } from "./theme.ts";
 
 export const HUB_MM = 9;
+export const HUB_RADIUS_MM = 2.9;
 
 /** The hub's outline: pairs of radius and height, from the shaft to the rim, mm. */
 export function hubOutline(diameter: number): [number, number][] {
@@ -23,8 +24,8 @@ export function hubOutline(diameter: number): [number, number][] {
     [neck * 1.15, 1.2],
     [2.1, 2.4],
     [2.2, HUB_MM - 1],
-    [2.9, HUB_MM - 0.9],
-    [2.9, HUB_MM],
+    [HUB_RADIUS_MM, HUB_MM - 0.9],
+    [HUB_RADIUS_MM, HUB_MM],
     [1.7, HUB_MM],
   ];
 }

@@ -12,13 +12,13 @@ import {
 } from "three";
 import type { LawCurve, SceneView } from "../wire/messages.ts";
 import { placeNeedle } from "./bevel.ts";
-import { HUB_MM, Hub } from "./hub.ts";
+import { HUB_MM, HUB_RADIUS_MM, Hub } from "./hub.ts";
 import { MM, type Moment } from "./moment.ts";
 import { Level } from "./needle_level.ts";
 import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
 import { atTip, type Content } from "./needle_space.ts";
-import { Syringe, type SyringeSize, syringeSize } from "./needle_syringe.ts";
+import { Syringe, type SyringeSize, syringeReach, syringeSize } from "./needle_syringe.ts";
 import { outOfView } from "./out_of_view.ts";
 import { steel } from "./steel.ts";
 import type { Theme } from "./theme.ts";
@@ -89,6 +89,7 @@ export class Needle {
   private content: Content = "outside";
   private plunger: Plunger = null;
   private size: SyringeSize = { bore: 1, travel: 0 };
+  private length = 1; // of the shaft
 
   constructor(private readonly theme: Theme) {
     this.hub = new Hub(theme);
@@ -104,6 +105,7 @@ export class Needle {
     const tipLength = scene.tip_length * MM;
     this.look = needleLook(scene);
     this.diameter = diameter;
+    this.length = length;
     for (const { geometry } of [this.shaft, this.face, this.bore]) geometry.dispose();
     this.shaft.geometry = shaftShape(diameter, tipLength, length, this.look);
     this.face.geometry = faceShape(diameter, tipLength, false, this.look);
@@ -140,6 +142,19 @@ export class Needle {
       .set(0, HUB_MM / 2, 0)
       .applyMatrix4(this.hub.group.matrix)
       .applyMatrix4(this.group.matrix);
+  }
+
+  /** The corners of a box around hub and syringe, with the plunger drawn out, mm: for a tip and an axis. */
+  outline(tip: Vector3, axis: Vector3): Vector3[] {
+    const syringe = syringeReach(this.size);
+    const [end, wide] = this.look === "tuohy" ? [HUB_MM - 1 + syringe.length, syringe.radius] : [HUB_MM, HUB_RADIUS_MM];
+    const matrix = placeNeedle(tip, axis);
+    const middle = tipOffset(this.look) * this.diameter;
+    return [0, end].flatMap((back) =>
+      [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) =>
+        new Vector3(middle + x! * wide, y! * wide, this.length + back).applyMatrix4(matrix),
+      ),
+    ); // biome-ignore format: a table
   }
 
   get state(): NeedleState {

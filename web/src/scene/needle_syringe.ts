@@ -23,6 +23,16 @@ export function syringeSize({ syringe }: Pick<SceneView, "syringe">): SyringeSiz
 export const syringeParts = ({ bore, travel }: SyringeSize) =>
   ({ radius: bore + 0.6, length: travel + 16, rod: 0.4 * bore, rest: bore + 1.6 }) as const;
 
+const NOZZLE = 5;
+const FLANGE = 4; // beyond the barrel
+const STALK = 11.6; // of the plunger, from the barrel's length to the end of the thumb rest
+
+/** How far a full syringe reaches behind its nozzle, and to the side, mm. */
+export function syringeReach(size: SyringeSize): { length: number; radius: number } {
+  const { radius, length, rest } = syringeParts(size);
+  return { length: NOZZLE + size.travel + length + STALK, radius: Math.max(radius + FLANGE, rest) };
+}
+
 /** A syringe of saline on the hub, for the loss of resistance. Its plunger moves in by a share of its travel. */
 export class Syringe {
   readonly group = new Group();
@@ -68,12 +78,12 @@ export class Syringe {
     this.plunger.add(
       tube(bore, 4, 0, this.rubber),
       tube(rod, length + 6, 4, this.solid),
-      tube(rest, 1.6, length + 10, this.solid),
+      tube(rest, 1.6, length + STALK - 1.6, this.solid),
     );
     this.group.add(
-      tube(2.2, 5, 0, this.glass),
-      tube(radius, length, 5, this.glass, true),
-      tube(radius + 4, 1.2, length + 5, this.glass),
+      tube(2.2, NOZZLE, 0, this.glass),
+      tube(radius, length, NOZZLE, this.glass, true),
+      tube(radius + FLANGE, 1.2, length + NOZZLE, this.glass),
       this.fluid,
       this.plunger,
     );
@@ -84,8 +94,8 @@ export class Syringe {
   show(pressed: number): void {
     const left = this.travel * (1 - pressed);
     this.fluid.visible = left > 0;
-    this.plunger.position.y = 5 + left;
+    this.plunger.position.y = NOZZLE + left;
     this.fluid.scale.y = Math.max(left, 1e-6); // a matrix of 0 has no inverse
-    this.fluid.position.y = 5 + left / 2;
+    this.fluid.position.y = NOZZLE + left / 2;
   }
 }

@@ -6,6 +6,7 @@ import { showLastAgain } from "../pop/again.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { poseBeside } from "./expert.ts";
+import { framingOf } from "./framing.ts";
 import { gestures } from "./gestures.ts";
 import { gestureHelp } from "./help.ts";
 import { hubInset } from "./hub_inset.ts";
@@ -65,6 +66,10 @@ export const view: Panel = (host, app) => {
     help.hidden = true;
     showTrouble("No 3D view: this browser has no WebGL. Plots, phases and all controls work without it.");
     const speak = spoken(host);
+    host.tabIndex = 0;
+    host.setAttribute("role", "application");
+    host.setAttribute("aria-label", "The needle, moved by keys");
+    viewKeys(host, handOf(app), orbit, () => showLastAgain(app), thumbOf(app));
     followInWords(app, speak);
     return;
   }
@@ -94,16 +99,42 @@ export const view: Panel = (host, app) => {
   });
   viewKeys(canvas, hand, orbit, () => showLastAgain(app), thumbOf(app));
 
+  const framing = framingOf(app);
+  const frame = (): void => {
+    if (!world.extent) return;
+    orbit.frame(world.middle, world.extent.radius);
+    look(framing.free.value ? "front" : "oblique");
+  };
+  framing.again.watch(frame);
   let built: SceneView | null = null;
+  let placed = true; // with the place of the needle, which the first tick tells
   const build = (scene: SceneView): void => {
     built = scene;
-    if (!world.build(scene) || !world.extent) return;
-    orbit.frame(world.extent.centre, world.extent.radius);
-    look("oblique");
+    if (!world.build(scene)) return;
+    placed = false;
+    settle();
+  };
+  const settle = (): void => {
+    frame();
+    if (framing.free.value) orbit.enclose(world.outline(), framing.free.value);
     orbit.settle();
     stage.stale = true;
   };
 
+  framing.free.watch((free) => {
+    const turns = world.nameless !== (free !== null);
+    world.nameless = free !== null;
+    if (turns) settle();
+    stage.stale = true;
+  });
+  const tellStage = (): void => {
+    const depths = world.depths(orbit.camera);
+    if (!depths?.equals(framing.depths.value)) framing.depths.value = depths;
+    canvas.dataset.needle = world
+      .needleBox(orbit.camera)
+      .map((share) => share.toFixed(3))
+      .join(" "); // for the tests
+  };
   let before = performance.now();
   everyFrame((now, painted) => {
     const elapsed = Math.min(100, now - before);
@@ -112,13 +143,20 @@ export const view: Panel = (host, app) => {
     const scene = source.scene.value;
     if (!scene || stage.lost) return;
     if (scene !== built) build(scene);
-    const turned = orbit.step(elapsed);
+    if (framing.free.value) orbit.enclose(world.outline(), framing.free.value);
+    let turned = orbit.step(elapsed);
     const ghost = source.live ? hand.target.value : poseBeside(source, app.overlay.value, source.shown() ?? 0);
     const pixel = orbit.mmPerPixel(world.moment.tip, stage.height);
     const changed = world.update(source, ghost, orbit.camera, pixel);
+    if (!placed && world.moment.tick >= 0) {
+      placed = true;
+      settle();
+      turned = orbit.step(0);
+    }
     drawRing(source, scene, orbit.camera, stage.width, stage.height);
     canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
+    if (framing.free.value && (turned || changed || stage.stale)) tellStage();
     const framed = sliceFrame.update(scene, probe);
     if (!turned && !changed && !framed && !stage.stale) {
       stage.rest(orbit.camera, now, painted);

@@ -6,12 +6,13 @@ import { feltForce, MODEL_FORCE } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { codeOf } from "../wire/ticks.ts";
-import { type Extent, extentOf } from "./anatomy.ts";
+import { type Extent, extentOf, surfaceOf } from "./anatomy.ts";
 import { ForceArrow } from "./arrow.ts";
 import { Block } from "./block.ts";
 import { Blood } from "./blood.ts";
 import { Fade } from "./fade.ts";
 import { FatLine } from "./fat_line.ts";
+import { DepthScale } from "./framing.ts";
 import { Ghost } from "./ghost.ts";
 import { GoalMark } from "./goal_mark.ts";
 import { Holes } from "./holes.ts";
@@ -21,11 +22,15 @@ import { MM, Moment, OUTSIDE } from "./moment.ts";
 import { Needle, type NeedleState } from "./needle.ts";
 import { needleLook } from "./needle_look.ts";
 import { Shown } from "./shown.ts";
+import { tangents } from "./slab_shape.ts";
 import type { Stage } from "./stage.ts";
 import type { Theme } from "./theme.ts";
 import { Trail } from "./trail.ts";
 
 const ACTIVE = codeOf("state", "active");
+const REST_MM = 5; // in front of the skin, where a run begins
+const BELOW_MM = 3; // drawn depth below the last of the sheets
+const LEAST_HEIGHT_PX = 40; // of the tissue, for a scale of depths beside it
 
 /** Everything that the view draws for one moment of a source. */
 export class World {
@@ -45,6 +50,8 @@ export class World {
   private goal: Goal | null = null;
   private readonly drawn = new Shown();
   private readonly fade = new Fade();
+  /** Whether the names and the force are written elsewhere, and not in the view. */
+  nameless = false;
 
   constructor(
     private readonly stage: Stage,
@@ -71,6 +78,7 @@ export class World {
     const before = this.scene && shapeOf(this.scene);
     this.scene = scene;
     if (before === shapeOf(scene)) return false;
+    this.moment.tick = -1;
     this.extent = extentOf(scene);
     const { length, size } = this.extent;
     this.needle.build(scene, length);
@@ -146,6 +154,53 @@ export class World {
   }
   private readonly entryEnd = new Vector3();
 
+  /** The middle of what the presets show, mm. */
+  get middle(): Vector3 {
+    const { cut } = this.block;
+    const middle = this.extent?.centre.clone() ?? new Vector3();
+    return this.block.shown ? middle.addScaledVector(cut.along, cut.middle) : middle;
+  }
+
+  /** Corners of the tissue and the needle as they are now and with the tip in front of the skin, mm. */
+  outline(): Vector3[] {
+    const { moment, extent, needle, scene } = this;
+    if (!extent || !scene) return [];
+    const { point, normal } = surfaceOf(scene);
+    const inwards = Math.max(0.2, moment.axis.dot(normal));
+    const depth = moment.tip.clone().sub(point).dot(normal);
+    const before = moment.tip.clone().addScaledVector(moment.axis, -Math.max(0, depth + REST_MM) / inwards);
+    return [
+      ...(this.block.shown ? this.block.corners() : sheetCorners(point, normal, extent)),
+      moment.tip,
+      ...[moment.tip, before].flatMap((tip) => needle.outline(tip, moment.axis)),
+    ];
+  }
+
+  /** The needle, hub and syringe on the screen: left, top, right and bottom as shares of the view. */
+  needleBox(camera: Camera): number[] {
+    const { tip, axis } = this.moment;
+    const on = [tip, ...this.needle.outline(tip, axis)].map((point) => point.clone().project(camera));
+    const x = on.map((point) => (1 + point.x) / 2);
+    const y = on.map((point) => (1 - point.y) / 2);
+    return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+  }
+
+  /** Where depths are on the screen, beside the tissue; null if the camera does not see one below the other. */
+  depths(camera: Camera): DepthScale | null {
+    const { extent, scene, stage } = this;
+    if (!extent || !scene) return null;
+    const deep = this.block.shown ? this.block.bottom : extent.deep + BELOW_MM;
+    const { point, normal } = surfaceOf(scene);
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const [zero, half, whole] = [0, deep / 2, deep].map((depth) => {
+      const at = this.block.shown
+        ? this.block.edge(depth, camera)
+        : point.clone().addScaledVector(normal, depth).addScaledVector(right, extent.size);
+      return ((1 - at.project(camera).y) / 2) * stage.height;
+    }) as [number, number, number];
+    return whole - zero > LEAST_HEIGHT_PX ? new DepthScale(zero, half, whole, deep) : null;
+  }
+
   /** What the hub and the syringe show, if they show anything and are out of view. */
   hiddenHub(camera: Camera, covered: number): NeedleState | null {
     const { state } = this.needle;
@@ -154,9 +209,17 @@ export class World {
   }
 
   name(camera: Camera): void {
-    const { labels, moment, stage } = this;
+    const { labels, stage } = this;
     const size = [stage.width, stage.height] as const;
     labels.begin();
+    if (!this.nameless) this.nameTissue(camera, size);
+    if (this.mark.group.visible)
+      labels.put("goal", `Goal: ${this.goal?.name}`, "goal", this.mark.middle, camera, size, "left");
+    labels.end();
+  }
+
+  private nameTissue(camera: Camera, size: readonly [number, number]): void {
+    const { labels, moment } = this;
     this.scene?.membranes.forEach((membrane, i) => {
       const at = this.block.shown ? this.block.labelPlace(i, camera) : this.rightmost(i, camera);
       labels.put(`membrane${i}`, membrane.name, "membrane", at, camera, size, "column");
@@ -167,10 +230,7 @@ export class World {
       const words = given ? `${feltForce(moment.scale)} ${much}` : `${MODEL_FORCE} ${much} (not output)`;
       labels.put("force", words, "force", this.arrow.head, camera, size, "left");
     }
-    if (this.mark.group.visible)
-      labels.put("goal", `Goal: ${this.goal?.name}`, "goal", this.mark.middle, camera, size, "left");
     if (this.entry.line.visible) labels.put("entry", "direction at entry", "entry", this.entryEnd, camera, size);
-    labels.end();
   }
 
   /** The edge of a slab that is farthest to the right on the screen. */
@@ -203,6 +263,24 @@ export class World {
       ...others.flatMap(({ x, y, z }) => [250 * x, 250 * y, 250 * z]),
     ];
   }
+}
+
+/** The corners of sheets of glass, mm. */
+function sheetCorners(point: Vector3, normal: Vector3, { size, deep }: Extent): Vector3[] {
+  const [right, forward] = [new Vector3(), new Vector3()];
+  tangents(normal, right, forward);
+  const signs = [-1, 1];
+  return [0, deep + BELOW_MM].flatMap((depth) =>
+    signs.flatMap((x) =>
+      signs.map((z) =>
+        point
+          .clone()
+          .addScaledVector(normal, depth)
+          .addScaledVector(right, x * size)
+          .addScaledVector(forward, z * size),
+      ),
+    ),
+  );
 }
 
 /** The parts of a scene that need a rebuild of the view if they change. Friction, for example, does not. */

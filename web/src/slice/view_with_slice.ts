@@ -1,10 +1,13 @@
 import { element, type Panel } from "../panel.ts";
 import { probeOf } from "../scene/probe.ts";
 import { view } from "../scene/view.ts";
+import { pageOf } from "../state/page.ts";
 import { remember, wasOpen } from "./remembered.ts";
-import { slice } from "./slice.ts";
 
-/** The 3-D view, and beside it the slice, which a button in the view's toolbar opens and closes. */
+/**
+ * The 3-D view, and beside it the slice, which a button in the view's toolbar opens and closes. Without WebGL, the
+ * slice is what the stage shows.
+ */
 export const viewWithSlice: Panel = (host, app) => {
   const main = element("div", { class: "view-main" });
   const beside = element("section", { class: "slice", id: "slice", "aria-label": "Slice", hidden: true });
@@ -31,12 +34,19 @@ export const viewWithSlice: Panel = (host, app) => {
       remember(false);
       button.focus();
     };
-    slice(beside, app, probe, close);
+    void import("./slice.ts").then(
+      ({ slice }) => slice(beside, app, probe, close),
+      () => {
+        started = false;
+        app.notify("The slice could not be loaded.");
+      },
+    );
   };
   button.addEventListener("click", () => {
     show(!open);
     remember(open);
   });
   (main.querySelector(".view-tools") ?? main).append(button);
-  show(wasOpen());
+  const flat = main.querySelector("canvas")?.hidden === true;
+  pageOf(app).watch((page) => show(page === "stage" ? flat : wasOpen()));
 };

@@ -29,11 +29,18 @@ const LEAST_BELOW = 6; // drawn depth behind the last membrane, mm
  * The layers of a scene from the surface down, or null if it is drawn as sheets: because every membrane has the look
  * "plain", or because the membranes are not parallel.
  */
-export function layersOf({ membranes }: Pick<SceneView, "membranes">): Layer[] | null {
+export function layersOf(scene: Pick<SceneView, "membranes">): Layer[] | null {
+  const normal = scene.membranes[0]?.inward_normal;
+  if (!normal || scene.membranes.every(({ look }) => look === "plain")) return null;
+  if (scene.membranes.some((m) => dot(m.inward_normal, normal) < PARALLEL)) return null;
+  return stackOf(scene);
+}
+
+/** The layers by the depths of their front faces along the first membrane's normal, also of sheets. */
+export function stackOf({ membranes }: Pick<SceneView, "membranes">): Layer[] {
   const first = membranes[0];
-  if (!first || membranes.every(({ look }) => look === "plain")) return null;
+  if (!first) return [];
   const normal = first.inward_normal;
-  if (membranes.some((m) => dot(m.inward_normal, normal) < PARALLEL)) return null;
   const depth = (m: MembraneView): number => dot(sub(m.point, first.point), normal) * MM;
   const order = membranes.map((m, i) => ({ m, i, top: depth(m) })).sort((a, b) => a.top - b.top);
   const start = order[0]!.top;

@@ -1,4 +1,4 @@
-import { Brush, smooth } from "./brush.ts";
+import { Brush, type Rgb, smooth } from "./brush.ts";
 import { arteryWall, blood, cerebrospinalFluid, dura, fascia, flavum, ligament, muscle, veinWall } from "./firm.ts";
 import type { Fill, Layer, Vessel } from "./layers.ts";
 import { epiduralSpace, fat, type Painter, plain, plainTissue, skin } from "./soft.ts";
@@ -72,6 +72,23 @@ function sheet(across: number, down: number, perMm: number, repeat: number, tile
 function border(brush: Brush, y: number, height: number): void {
   const edge = Math.min(0.3, 0.25 * height);
   brush.light(1 - 0.16 * smooth(edge, 0, Math.min(y, height - y)));
+}
+
+const SAMPLES = 12; // along, and down
+
+/** The mean colour of a layer in the cut, 0 to 255. artery: whether its blood is arterial. */
+export function toneOf({ fill, top, bottom }: Layer, artery: boolean): Rgb {
+  const height = bottom - top;
+  const brush = new Brush(SAMPLES);
+  const sum: [number, number, number] = [0, 0, 0];
+  for (let i = 0; i < SAMPLES ** 2; i++) {
+    const y = (((i % SAMPLES) + 0.5) / SAMPLES) * height;
+    (fill === "blood" && artery ? arterial : PAINTERS[fill])(brush, Math.floor(i / SAMPLES) + 0.5, y, height);
+    [brush.r, brush.g, brush.b].forEach((value, k) => {
+      sum[k]! += value / SAMPLES ** 2;
+    });
+  }
+  return sum;
 }
 
 /** The cut along the vessel: every layer from the surface down, `width` mm wide. It repeats along its width. */

@@ -2,6 +2,7 @@ import type { Panel } from "../../panel.ts";
 import { leaveExcerpt } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
 import { onePerApp } from "../../state/one_per_app.ts";
+import { pageOf } from "../../state/page.ts";
 import { Arrangements, PANELS, PLACES } from "./arrangement.ts";
 import { addPanelTools } from "./panel_tools.ts";
 import { separator } from "./separator.ts";
@@ -15,6 +16,7 @@ export const arrangementsOf = onePerApp(() => new Arrangements());
  */
 export const arrange: Panel = (root, app) => {
   const all = arrangementsOf(app);
+  const page = pageOf(app);
   const panels = PANELS.map((name) => root.querySelector<HTMLElement>(`:scope > .${name}`)!);
   panels.forEach((panel, i) => {
     addPanelTools(panel, PANELS[i]!, all);
@@ -43,10 +45,16 @@ export const arrange: Panel = (root, app) => {
       root,
       now.order.map((name) => panels[PANELS.indexOf(name)]!),
     );
-    root.toggleAttribute("data-projector", now.projector);
   });
+  const attributes = (): void => {
+    const onBench = page.value === "bench";
+    root.toggleAttribute("data-projector", onBench && all.now.value.projector);
+    root.toggleAttribute("data-maximised", onBench && all.maximised.value !== null);
+  };
+  all.now.watch(attributes);
+  all.maximised.watch(attributes);
+  page.watch(attributes);
   all.maximised.watch((name) => {
-    root.toggleAttribute("data-maximised", name !== null);
     panels.forEach((panel, i) => {
       panel.classList.toggle("maximised", PANELS[i] === name);
     });

@@ -20,18 +20,20 @@ export class Progress {
   fallen: ReturnType<typeof fallenForce> = MODEL_FORCE;
   /** Whether the tip has been outside the tissue since the tour began: a needle in tissue must come out first. */
   ready = false;
+  /** Whether the tip is in tissue now. */
+  inside = false;
   private next = 0; // tick
   private generation = -1;
   private began = 0; // tick
 
-  /** Takes all ticks and events since the last call. Returns whether something was done. */
+  /** Takes all ticks and events since the last call. Returns whether something has changed. */
   follow({ history, events, laws }: Source): boolean {
     if (history.generation !== this.generation) {
       // A new run; or the first call, which looks only at what happens from now on.
       this.next = this.began = this.generation === -1 ? Math.max(history.first, history.end - 1) : history.first;
       this.generation = history.generation;
     }
-    const before = this.done + (this.ready ? 1 : 0);
+    const before = this.state;
     const peaks = laws.value.map(({ lower }) => Math.max(1e-9, ...lower.map(Math.abs)));
     const phases = history.byteColumn("phase");
     const forces = history.column("axial_force");
@@ -51,10 +53,15 @@ export class Progress {
       if (this.pop) this.fallen = fallenForce(history, this.pop.tick);
     }
     if (this.pop && this.ready && this.done < 3) this.done = 3;
-    return this.done + (this.ready ? 1 : 0) !== before;
+    return this.state !== before;
+  }
+
+  private get state(): string {
+    return `${this.done} ${this.ready} ${this.inside}`;
   }
 
   private take(inside: boolean, share: number): void {
+    this.inside = inside;
     this.ready ||= !inside;
     if (!this.ready) return;
     if (this.done === 0 && inside) this.done = 1;

@@ -1,0 +1,111 @@
+"""The stage, which opens first: one sentence, one force, one curve, at most three buttons; the needle always whole."""
+
+import pytest
+from person import opened, view
+from playwright.sync_api import Page, expect
+from studio_process import StudioProcess
+
+SIZES = ((1920, 1080), (1440, 900), (1024, 768), (720, 450), (390, 844))
+WORDS_WHOLE = """() => [".stage-sentence", ".stage-number", ".stage-buttons"].every((at) => {
+  const part = document.querySelector(at);
+  const {left, right, top, bottom} = part.getBoundingClientRect();
+  const inside = left >= 0 && right <= innerWidth && top >= 0 && bottom <= innerHeight;
+  return inside && part.scrollWidth <= part.clientWidth + 1;
+})"""
+# The needle with hub and syringe, as shares of the view, is inside it, and beside the curve's numbers.
+NEEDLE_WHOLE = """() => {
+  const [left, top, right, bottom] = document.querySelector(".view canvas").dataset.needle.split(" ").map(Number);
+  return left >= 0 && top >= 0 && right <= 1 && bottom <= 1 && right - left + bottom - top > 0.1;
+}"""
+# The rows of the curve's picture in which its line, the darkest thing there, is drawn.
+ROWS = """() => {
+  const canvas = document.querySelector(".stage-curve canvas");
+  const {width, height} = canvas;
+  const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
+  const rows = new Set();
+  for (let i = 0; i < data.length; i += 4)
+    if (data[i + 3] > 200 && data[i] + data[i + 1] + data[i + 2] < 180) rows.add(Math.floor(i / 4 / width));
+  return rows.size;
+}"""
+
+
+@pytest.fixture
+def studio(tmp_path):
+    with StudioProcess(tmp_path, "venipuncture") as running:
+        yield running
+
+
+@pytest.fixture
+def page(browser, studio):
+    with opened(browser, studio.url, bench=False) as page:
+        expect(page.locator(".stage-number")).to_contain_text("N")
+        yield page
+
+
+def marks(page: Page):
+    return page.locator(".stage-marks button")
+
+
+def push_to_a_pop(page: Page) -> None:
+    view(page).focus()
+    for _ in range(200):
+        page.keyboard.press("Shift+ArrowDown")
+        page.wait_for_timeout(50)
+        if marks(page).count():
+            break
+    expect(marks(page)).not_to_have_count(0)
+
+
+def test_the_stage_opens_with_three_buttons_and_the_needle_whole_at_every_size(page):
+    expect(page.get_by_role("button")).to_have_count(3)
+    expect(page.get_by_role("tab")).to_have_count(0)
+    for size in SIZES:
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        page.wait_for_function(WORDS_WHOLE)
+        page.wait_for_function(NEEDLE_WHOLE)
+        assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+
+
+def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_slowly(page):
+    sentence = page.locator(".stage-sentence")
+    expect(sentence).to_contain_text("push until it gives")
+    page.wait_for_function(f"() => ({ROWS})() > 0")  # names and numbers
+    before = page.evaluate(ROWS)
+    push_to_a_pop(page)
+    expect(sentence).to_contain_text("It gave")
+    page.wait_for_function(f"() => ({ROWS})() > {before} + 20")
+    marks(page).first.click()
+    expect(sentence).to_have_text("The pop of the skin, slowly.")
+    page.get_by_role("button", name="Go on").click()
+    expect(marks(page)).not_to_have_count(0)
+    page.get_by_role("button", name="Again", exact=True).click()
+    expect(marks(page)).to_have_count(0)
+    expect(sentence).to_contain_text("the needle is out")
+    page.wait_for_function(f"() => ({ROWS})() <= {before} + 20")
+
+
+def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
+    sentence = page.locator(".stage-sentence")
+    push_to_a_pop(page)
+    page.keyboard.press("Home")
+    expect(sentence).to_contain_text("the needle is out")
+    for _ in range(200):
+        page.keyboard.press("Shift+ArrowDown")
+        page.wait_for_timeout(50)
+        if "is out" not in (sentence.text_content() or ""):
+            break
+    expect(sentence).to_contain_text("The tip is in the")
+
+
+def test_the_bench_is_one_click_or_one_key_away_and_is_remembered(page):
+    page.get_by_role("button", name="More").click()
+    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
+    expect(page.locator(".stage-number")).to_be_hidden()
+    page.reload()
+    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
+    page.keyboard.press("Alt+b")
+    expect(page.locator(".stage-number")).to_be_visible()
+    expect(page.get_by_role("tab")).to_have_count(0)
+    page.reload()
+    expect(page.locator(".stage-number")).to_contain_text("N")
+    expect(page.get_by_role("button")).to_have_count(3)

@@ -1,0 +1,189 @@
+import { element } from "../panel.ts";
+import { CanvasPen } from "../plots/kit/canvas_pen.ts";
+import { apart } from "../plots/kit/labels.ts";
+import { Polyline } from "../plots/kit/polyline.ts";
+import { label, niceStep, Scale, ticks } from "../plots/kit/scale.ts";
+import { colourOf, type Theme, watchTheme } from "../plots/kit/theme.ts";
+import type { DepthScale } from "../scene/framing.ts";
+import type { Band } from "../tissue/bands.ts";
+import type { Attempt, Felt } from "./attempt.ts";
+
+const AXIS = 34; // px, of the numbers of the depth
+const TOP = 34; // px, of the numbers of the force
+const EDGE = 10; // px
+const PULL = 0.3; // of the greatest force: room for a force that pulls
+const GAP = 14; // px between two names
+
+/** What the curve shows at present. */
+interface Shown {
+  readonly attempt: Attempt;
+  readonly bands: readonly Band[];
+  /** The greatest force to make room for, N. */
+  readonly most: number;
+  /** Where the view has these depths, and where the curve's box begins in it, px; null: the curve's own scale. */
+  readonly beside: { readonly scale: DepthScale; readonly top: number } | null;
+  readonly now: Felt | null;
+}
+
+/** The felt force to the right against the depth downwards, on the layers. Draws only what is new. */
+export class CurvePicture {
+  readonly root: HTMLElement;
+  /** For buttons at the pops; placed with `place`. */
+  readonly marks = element("div", { class: "stage-marks" });
+  private readonly canvas = element("canvas", { "aria-hidden": "true" });
+  private readonly head = element("span", { class: "stage-head", "aria-hidden": "true" }, "felt force");
+  private readonly pen: CanvasPen;
+  private readonly force = new Scale();
+  private readonly piece = new Polyline(64);
+  private theme: Theme | null = null;
+  private width = 0;
+  private height = 0;
+  private changes = 0;
+  private drawn = "";
+  private points = 0; // of the attempt that are drawn
+  private most = 0;
+  private depth: (mm: number) => number = () => 0;
+
+  constructor() {
+    this.root = element("div", { class: "stage-curve" }, this.canvas, this.head, this.marks);
+    this.pen = new CanvasPen(this.canvas.getContext("2d")!);
+    watchTheme((theme) => {
+      this.theme = theme;
+      this.changes++;
+    });
+    new ResizeObserver(() => this.fit()).observe(this.root);
+  }
+
+  private fit(): void {
+    this.width = this.root.clientWidth;
+    this.height = this.root.clientHeight;
+    this.canvas.width = Math.max(1, Math.round(this.width * devicePixelRatio));
+    this.canvas.height = Math.max(1, Math.round(this.height * devicePixelRatio));
+    this.changes++;
+  }
+
+  /** Returns whether everything was drawn anew, so that marks must be placed again. */
+  show(shown: Shown): boolean {
+    const { theme, width, height } = this;
+    if (!theme || width < 60 || height < 60) return false;
+    const { attempt, bands, beside } = shown;
+    while (this.most < shown.most) this.most = Math.max(shown.most, 1.3 * this.most);
+    const scale = beside ? [beside.top, beside.scale.px(0), beside.scale.px(beside.scale.deep)] : [];
+    const state = [this.changes, attempt.generation, this.most, bands.length, bands.at(-1)?.bottom, ...scale].join(" ");
+    const anew = state !== this.drawn;
+    if (anew) {
+      this.drawn = state;
+      this.points = 0;
+      this.arrange(shown);
+      this.pen.begin(width, height, devicePixelRatio);
+      this.drawBands(bands, theme);
+      this.drawAxes(bands, theme);
+    }
+    this.drawNew(attempt, theme);
+    this.drawHead(shown.now);
+    return anew;
+  }
+
+  /** Forgets how great the forces were. */
+  forget(): void {
+    this.most = 0;
+  }
+
+  /** Puts buttons at places of the curve, force in N and depth in mm, but none over another. */
+  place(buttons: readonly { readonly button: HTMLElement; readonly force: number; readonly depth: number }[]): void {
+    const high = Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
+    const middles = apart(
+      buttons.map(({ depth }) => this.depth(depth)),
+      high + 2,
+      this.height - high / 2,
+    );
+    buttons.forEach(({ button, force }, i) => {
+      const x = Math.max(AXIS, Math.min(this.force.px(force), this.width - EDGE - button.offsetWidth));
+      button.style.transform = `translate(${x.toFixed(0)}px, ${(middles[i]! - high / 2).toFixed(0)}px)`;
+    });
+  }
+
+  private arrange({ bands, beside }: Shown): void {
+    this.force.set(-PULL * this.most, this.most, AXIS, this.width - EDGE);
+    if (beside) {
+      this.depth = (mm) => beside.scale.px(mm) - beside.top;
+      return;
+    }
+    const deep = bands.at(-1)?.bottom ?? 10;
+    const from = TOP + 0.08 * (this.height - TOP);
+    this.depth = (mm) => from + (mm / deep) * (this.height - EDGE - from);
+  }
+
+  private drawBands(bands: readonly Band[], theme: Theme): void {
+    const { pen, width, depth, height } = this;
+    const named = bands.filter(({ name }) => name !== "");
+    for (const { tone, membrane, top, bottom } of bands) {
+      const high = Math.max(2, depth(bottom) - depth(top));
+      const colour = tone
+        ? `rgb(${tone.map(Math.round).join(" ")})`
+        : membrane === null
+          ? null
+          : colourOf(theme, membrane);
+      if (colour) pen.box(AXIS, depth(top), width - AXIS, high, colour, tone ? 0.5 : 0.3);
+    }
+    const lowest = height - EDGE;
+    const middles = apart(
+      named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2))),
+      GAP,
+      lowest,
+    );
+    named.forEach(({ name }, i) => {
+      pen.text(width - EDGE / 2, middles[i]!, name, { colour: theme.text, size: 12, anchor: "end", halo: theme.panel });
+    });
+  }
+
+  private drawAxes(bands: readonly Band[], theme: Theme): void {
+    const { pen, width, height, force, depth } = this;
+    const deep = bands.at(-1)?.bottom ?? 10;
+    const quiet = { colour: theme.quiet, size: 12 } as const;
+    const skin = depth(0);
+    const axis = Math.max(TOP, Math.min(skin - 26, height)); // the numbers of the force stand above the skin
+    const step = niceStep(force.max - force.min, Math.max(2, width / 80));
+    for (const value of ticks(force.min, force.max, step)) {
+      const x = Math.round(force.px(value)) + 0.5;
+      const strong = Math.abs(value) < step / 2;
+      pen.segment(x, axis, x, height, {
+        colour: strong ? theme.quiet : theme.line,
+        width: 1,
+        alpha: strong ? 0.9 : 0.7,
+      });
+      if (x < width - 14) pen.text(x, axis - 9, label(value, step), { ...quiet, anchor: "middle" });
+    }
+    pen.text(AXIS, axis - 25, "felt force, N", { ...quiet, colour: theme.text });
+    pen.text(AXIS - 7, skin - 14, "mm", { ...quiet, anchor: "end" });
+    const down = niceStep(deep, Math.max(2, (depth(deep) - skin) / 44));
+    for (const value of ticks(0, deep, down)) {
+      const y = Math.round(depth(value)) + 0.5;
+      if (y > height - 5) break;
+      pen.segment(AXIS - 4, y, AXIS, y, { colour: theme.quiet, width: 1 });
+      pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
+    }
+  }
+
+  private drawNew({ path }: Attempt, theme: Theme): void {
+    const { pen, piece, force, depth } = this;
+    if (path.count <= this.points) return;
+    piece.clear();
+    for (let i = Math.max(0, this.points - 1); i < path.count; i++) {
+      if (Number.isNaN(path.ys[i]!)) piece.gap();
+      else piece.add(force.px(path.xs[i]!), depth(path.ys[i]!));
+    }
+    this.points = path.count;
+    pen.within(AXIS, 0, this.width - AXIS, this.height, () => pen.line(piece, { colour: theme.text, width: 2.5 }));
+  }
+
+  private drawHead(now: Felt | null): void {
+    const { head } = this;
+    const y = now && this.depth(now.depth);
+    const out = now === null || y === null || !Number.isFinite(y) || y < 0;
+    if (head.hidden !== out) head.hidden = out;
+    if (out) return;
+    const place = `translate(${this.force.px(now.force).toFixed(0)}px, ${Math.min(this.height, y).toFixed(0)}px)`;
+    if (head.style.transform !== place) head.style.transform = place;
+  }
+}

@@ -1,0 +1,46 @@
+import { Progress, TASKS } from "../controls/tour/progress.ts";
+import { instruction } from "../controls/tour/words.ts";
+import { mm } from "../format.ts";
+import { handOf } from "../hand/hand.ts";
+import type { App } from "../state/app.ts";
+import { remember, remembered } from "../state/remembered.ts";
+import { type Band, bandAt } from "../tissue/bands.ts";
+import type { Felt } from "./attempt.ts";
+
+/** The one sentence of the stage: what is, or what to do next, as the needle is now. */
+export class Sentence {
+  private readonly progress = new Progress();
+  private readonly learnt = remembered("tour") !== null; // in an earlier visit
+
+  constructor(private readonly app: App) {}
+
+  /** now: of the needle; null if it is not known, or must not be told. */
+  words(bands: readonly Band[], now: Felt | null): string {
+    const { app, progress } = this;
+    const { excerpt, paused, live, title } = app.source.value;
+    const simulated = app.hello.value?.device.simulated ?? true;
+    const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";
+    if (app.live.history.length) progress.follow(app.live);
+    const all = progress.done === TASKS.length;
+    if (all && remembered("tour") === null) remember("tour", "seen");
+    const exercise = app.exercise.value;
+    if (excerpt) return `The pop of the ${excerpt.event.name}, slowly.`;
+    if (paused) return "Paused; the run goes on.";
+    if (!live) return `Replay of ${title}`;
+    const barred = handOf(app).barred.value;
+    if (simulated && barred) return barred;
+    if (exercise?.running) return exercise.instruction;
+    if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated);
+    return place(bands, now) || instruction(FRESH, skin, simulated);
+  }
+}
+
+/** Where the tip is, in words; empty in front of the skin. */
+function place(bands: readonly Band[], now: Felt | null): string {
+  const band = now && bandAt(bands, now.depth);
+  if (!band) return "";
+  return `The tip is in the ${band.name || "tissue"}, ${mm(now.depth / 1e3, 0)} deep.`;
+}
+
+/** Of somebody who has the needle in front of the skin. */
+const FRESH = Object.assign(new Progress(), { ready: true });

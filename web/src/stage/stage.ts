@@ -1,0 +1,195 @@
+import { newton } from "../format.ts";
+import { handOf } from "../hand/hand.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
+import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
+import { type DepthScale, type Free, framingOf } from "../scene/framing.ts";
+import type { App } from "../state/app.ts";
+import { pageOf, show } from "../state/page.ts";
+import { dropText, feltForce, scaleOf } from "../state/scale.ts";
+import type { Source } from "../state/source.ts";
+import { type Band, bandsOf } from "../tissue/bands.ts";
+import type { MembraneEvent, SceneView } from "../wire/messages.ts";
+import { Attempt, feltAt } from "./attempt.ts";
+import { CurvePicture } from "./curve.ts";
+import { Sentence } from "./sentence.ts";
+
+const ROOM = 1.15; // of the axis, beyond the greatest force
+const WORDS_MS = 100; // between two numbers; faster ones cannot be read
+
+/** What opens first: one sentence, one force and one curve over the view, and three buttons. */
+export const stage: Panel = (root, app) => {
+  const page = pageOf(app);
+  const framing = framingOf(app);
+  const view = root.querySelector<HTMLElement>(":scope > .view")!;
+  const words = element("p", { class: "stage-sentence", role: "status" });
+  const force = element("output", { class: "stage-number" });
+  const name = element("span", { class: "stage-name" });
+  const free = element("div", { class: "stage-free", "aria-hidden": "true" });
+  const curve = new CurvePicture();
+  const button = (text: string, title: string, act: () => void): HTMLButtonElement =>
+    element("button", { type: "button", title, onclick: act }, text);
+  const hold = button("Pause", "The picture stands still; the run goes on", () => {
+    const { source } = app;
+    if (source.value.live) app.pause();
+    else if (source.value.excerpt) leaveExcerpt(app);
+    else app.goLive();
+  });
+  const again = button("Again", "A new attempt: the needle goes back, and the curve begins anew", () => {
+    app.goLive();
+    attempts.live.begin();
+    curve.forget();
+    handOf(app).home();
+    framing.again.value++;
+  });
+  const more = button("More", "The bench: every plot, table and setting (Alt+B)", () => show(page, "bench"));
+  const buttons = element("div", { class: "stage-buttons", role: "group", "aria-label": "Stage" }, hold, again, more);
+  const box = element(
+    "section",
+    { class: "stage", "aria-label": "Stage" },
+    element("h1", { class: "only-read" }, "Punctura"),
+    words,
+    element("div", { class: "stage-force" }, force, name),
+    free,
+    curve.root,
+    buttons,
+  );
+  root.append(box);
+
+  const measure = (): void => {
+    framing.free.value = page.value === "stage" ? shareOf(free, view) : null;
+  };
+  new ResizeObserver(measure).observe(free);
+  new ResizeObserver(measure).observe(view);
+  page.watch((now) => {
+    box.hidden = now !== "stage";
+    measure();
+  });
+  document.addEventListener("keydown", (event) => {
+    if (!event.altKey || event.ctrlKey || event.code !== "KeyB") return;
+    event.preventDefault();
+    show(page, page.value === "stage" ? "bench" : "stage");
+  });
+  app.source.watch((source) => {
+    hold.textContent = source.live ? "Pause" : "Go on";
+  });
+
+  const attempts = new Attempts(app);
+  const sentence = new Sentence(app);
+  const marks = new Marks(app, curve);
+  let scene: SceneView | null = null;
+  let bands: Band[] = [];
+  let wordsAt = 0;
+  everyFrame((time) => {
+    const { source } = app;
+    attempts.live.follow();
+    if (page.value !== "stage") return;
+    const built = source.value.scene.value;
+    if (built !== scene) {
+      scene = built;
+      bands = built ? bandsOf(built) : [];
+    }
+    const tick = source.value.shown();
+    const now = built && tick !== null ? feltAt(source.value.history, built, tick) : null;
+    const hidden = app.blind || !built;
+    curve.root.hidden = hidden;
+    if (built && !hidden) {
+      const attempt = attempts.shown();
+      const strongest = Math.max(0.2, ...source.value.laws.value.flatMap(({ lower }) => lower.map(Math.abs)));
+      const most = ROOM * Math.max(strongest * scaleOf(source.value), attempt.most);
+      const anew = curve.show({ attempt, bands, most, beside: besideOf(framing.depths.value, view, curve.root), now });
+      marks.show(attempt, anew);
+    }
+    if (time - wordsAt < WORDS_MS) return;
+    wordsAt = time;
+    write(words, sentence.words(bands, hidden ? null : now));
+    write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
+    write(name, tick === null ? "" : feltForce(scaleOf(source.value)));
+  });
+};
+
+/** Changes a text only if it is another one: screen readers read every change. */
+function write(host: HTMLElement, text: string): void {
+  if (host.textContent !== text) host.textContent = text;
+}
+
+/** The place of one element in another, as shares of its size. */
+function shareOf(part: HTMLElement, whole: HTMLElement): Free | null {
+  const [a, b] = [part.getBoundingClientRect(), whole.getBoundingClientRect()];
+  if (a.width < 1 || a.height < 1 || b.width < 1 || b.height < 1) return null;
+  return {
+    left: (a.left - b.left) / b.width,
+    right: (a.right - b.left) / b.width,
+    top: (a.top - b.top) / b.height,
+    bottom: (a.bottom - b.top) / b.height,
+  };
+}
+
+/** The view's scale of depths for the curve, if the curve stands beside the tissue and not below it. */
+function besideOf(
+  scale: DepthScale | null,
+  view: HTMLElement,
+  curve: HTMLElement,
+): { scale: DepthScale; top: number } | null {
+  const top = curve.getBoundingClientRect().top - view.getBoundingClientRect().top;
+  const fits = scale && scale.px(0) > top && scale.px(scale.deep) < top + 1.2 * curve.clientHeight;
+  return fits ? { scale, top } : null;
+}
+
+/** The attempt of the live run, and that of a recording while one is shown. */
+class Attempts {
+  readonly live: Attempt;
+  private other: Attempt | null = null;
+
+  constructor(private readonly app: App) {
+    this.live = new Attempt(app.live);
+  }
+
+  shown(): Attempt {
+    const source = rootOf(this.app.source.value);
+    if (source.live || source.paused) return this.live;
+    if (this.other?.source !== source) this.other = new Attempt(source);
+    this.other.follow();
+    return this.other;
+  }
+}
+
+const rootOf = (source: Source): Source => source.excerpt?.of ?? source;
+
+/** A button at each pop of the curve, which shows it again, slowly. */
+class Marks {
+  private readonly known = new Map<Attempt["pops"][number], HTMLElement>();
+
+  constructor(
+    private readonly app: App,
+    private readonly curve: CurvePicture,
+  ) {}
+
+  show({ pops, source }: Attempt, anew: boolean): void {
+    for (const [pop, button] of this.known) {
+      if (pops.includes(pop)) continue;
+      button.remove();
+      this.known.delete(pop);
+    }
+    const before = this.known.size;
+    for (const pop of pops) if (!this.known.has(pop)) this.known.set(pop, this.add(pop.event, source));
+    if (!anew && this.known.size === before) return;
+    this.curve.place([...this.known].map(([{ force, depth }, button]) => ({ button, force, depth })));
+  }
+
+  private add(event: MembraneEvent, source: Source): HTMLElement {
+    const drop = dropText(source.history, event);
+    const button = element(
+      "button",
+      {
+        type: "button",
+        "aria-label": `${event.name}, pop ${drop}: ${SHOW_AGAIN}`,
+        title: SHOW_AGAIN,
+        onclick: () => showAgain(this.app, event),
+      },
+      element("span", {}, drop),
+      element("span", { class: "stage-slowly" }, "again, slowly"),
+    );
+    this.curve.marks.append(button);
+    return button;
+  }
+}

@@ -1,0 +1,22 @@
+import { onePerApp } from "./one_per_app.ts";
+import { remember, remembered } from "./remembered.ts";
+import { Signal } from "./signal.ts";
+
+/** stage: the tissue, one sentence, one force and one curve. bench: every panel. */
+type Page = "stage" | "bench";
+
+const KEY = "page";
+
+/** Which of the two is shown; the browser remembers it. The style sheets read it as `data-page` of the root element. */
+export const pageOf = onePerApp(() => {
+  const page = new Signal<Page>(remembered(KEY) === "bench" ? "bench" : "stage");
+  page.watch((now) => {
+    document.documentElement.dataset.page = now;
+  });
+  return page;
+});
+
+export function show(page: Signal<Page>, wanted: Page): void {
+  page.value = wanted;
+  remember(KEY, wanted);
+}
