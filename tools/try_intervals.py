@@ -2,7 +2,7 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
-        [--delay 0] [--tolerance 0] [--walls 1] [--apart 0.5] [--workers 1] [--seed 1]
+        [--delay 0] [--tolerance 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -14,7 +14,7 @@ N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-s
 multiples of these, m and N. --lag, --delay: of the force sensor, s. --tolerance: the true diameter of the needle is
 within this share of the stated one, in 95 of 100 traces, and identify is told so. --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
-it is right.
+it is right. --auto: the number is not given for one wall, too.
 
 An interval of 95 % should hold the truth in 93 to 97 % of the cases. "hidden": even an ideal interval is too wide to
 tell the parameter. First, the Fisher information at the truth says that it spans a factor of 100 or more. Second, the
@@ -82,6 +82,7 @@ class Conditions:
     tolerance: float = 0.0
     walls: int = 1
     apart: float = 0.5
+    auto: bool = False
 
 
 @dataclass(frozen=True)
@@ -203,14 +204,15 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     share = given.tolerance * np.random.default_rng(10**6 + seed).normal() / 1.96
     stated = pn.Needle(needle.diameter * (1 + share), needle.tip_angle)
     known = Rig(diameter_tolerance=given.tolerance * needle.diameter)
-    found = identify(trace, stated, membranes=1 if given.walls == 1 else "auto", rig=known)
+    chosen = given.auto or given.walls > 1
+    found = identify(trace, stated, membranes="auto" if chosen else 1, rig=known)
     true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0)).with_values(truth)
     names = [*truth, "offset"]
     assert trace.time is not None
     inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
     rows = []
-    if given.walls > 1:
+    if chosen:
         rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
     for estimate in found.estimates:
         kind, value = estimate.name.rpartition(".")[2], truth.get(estimate.name)
@@ -253,6 +255,7 @@ def main() -> None:
     parser.add_argument("--machine", action="store_true", help="moved at one speed")
     parser.add_argument("--inward", action="store_true", help="end at the greatest depth")
     parser.add_argument("--walls", type=int, default=1)
+    parser.add_argument("--auto", action="store_true", help="the number of walls is not given")
     parser.add_argument("--apart", type=float, default=0.5, help="tip lengths")
     for option, unit in OTHERS.items():
         parser.add_argument(option, type=float, default=0.0, help=unit)

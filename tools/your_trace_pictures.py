@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import matplotlib as mpl
@@ -20,16 +22,21 @@ from numpy.typing import NDArray
 from punctura._core import TraceModel
 from punctura.identify.doubts import doubts
 from punctura.identify.fit import Fit, Misfit, fit
-from punctura.identify.model import Model
+from punctura.identify.intervals import estimates
+from punctura.identify.model import Model, extensions
+from punctura.identify.needle_tolerance import doubt_of_needle
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
+from punctura.identify.rig import UNKNOWN
 from punctura.rivals.hold_out import REPEAT, second_insertion
 from punctura.trace import Trace, segment
+from punctura.trace.findings import examine
 from punctura.trace.numbers import numbers_of
 from validation_pictures import COLOURS, save
 
 Array = NDArray[np.float64]
 NEEDLE = pn.Needle(diameter=1.2e-3, tip_angle=0.4)
 WALL = {"surface": 5e-3, "stiffness": 600, "precompression": 0.3, "friction": 0.2, "thickness": 0.5e-3}
+PLAIN = Model(1)
 RATE, NOISE = 100.0, 8e-3  # Hz, N
 
 
@@ -47,9 +54,9 @@ def motion(speeds: tuple[float, ...] = (5e-3,), hold: float = 1.0) -> tuple[Arra
     return np.arange(len(depth)) / RATE, depth
 
 
-def law(time: Array, depth: Array) -> Array:
-    """The force of one wall of K06 (n,), N."""
-    p = truth()
+def law(time: Array, depth: Array, more: dict[str, float] | None = None) -> Array:
+    """The force of one wall of K06 (n,), N. more: other parameters."""
+    p = truth().with_values(more or {})
     return np.asarray(TraceModel(NEEDLE, depth, time).forces(p.membranes, p.coupling, False)[0])
 
 
@@ -57,13 +64,60 @@ def noisy(time: Array, depth: Array, force: Array) -> Trace:
     return Trace(depth, force + NOISE * np.random.default_rng(1).normal(size=len(depth)), time)
 
 
-def fitted(trace: Trace) -> Fit:
-    """K06 with one wall and without extensions."""
-    return fit(Misfit(trace, truth()), Model(1).names, truth())
+def fitted(trace: Trace, model: Model = PLAIN, needle: pn.Needle = NEEDLE) -> Fit:
+    """K06 with one wall, without extensions unless the model has some."""
+    start = model.start(replace(truth(), needle=needle))
+    return fit(Misfit(trace, start), model.names, start)
 
 
-def draw_fit(axes: Axes, below: Axes, trace: Trace) -> None:
-    """The trace, the fit and what is left, with the places that are not explained."""
+def draw_two(axes: Axes, below: Axes, trace: Trace, over: str, fits: dict[str, Fit]) -> None:
+    """The trace over depth or time, two fits and what each of them leaves."""
+    assert trace.time is not None
+    where = 1e3 * trace.depth if over == "depth, mm" else trace.time
+    axes.plot(where, trace.force, color=COLOURS["pale"], lw=0.8, label="trace")
+    for (label, found), colour in zip(fits.items(), (COLOURS["bad"], COLOURS["good"]), strict=True):
+        axes.plot(where, trace.force + found.residuals, color=colour, lw=1.1, label=label)
+        below.plot(where, -1e3 * found.residuals, color=colour, lw=0.6)
+        print(f"{label}: {1e3 * found.rmse:.1f} mN")
+    axes.set(ylabel="force, N")
+    axes.legend(fontsize=8, frameon=False)
+    below.axhline(0, color="black", lw=0.5)
+    below.set(xlabel=over, ylabel="left, mN")
+
+
+def extended(name: str) -> Model:
+    return PLAIN.extended(next(one for one in extensions(NEEDLE) if one.name == name))
+
+
+def drift(axes: Axes, below: Axes) -> None:
+    time, depth = motion()
+    trace = noisy(time, depth, law(time, depth) + 0.1 * time / time[-1])
+    print(*(finding.text for finding in examine(trace).findings), sep="\n")
+    fits = {"K06, one wall": fitted(trace), "with a drift of the sensor": fitted(trace, Model(1, drift=True))}
+    draw_two(axes, below, trace, "time, s", fits)
+
+
+def relaxation(axes: Axes, below: Axes) -> None:
+    """The needle rests within the rise. Behind the pop it slides, and the spring keeps its length."""
+    time = np.arange(0, 9.0, 1 / RATE)
+    depth = np.interp(time, [0, 1.4, 4.4, 6.0, 9.0], [0, 7e-3, 7e-3, 15e-3, 0])
+    trace = noisy(time, depth, law(time, depth, {"relaxation_1_stiffness": 1500.0, "relaxation_1_time": 0.8}))
+    print(*(finding.text for finding in examine(trace).findings), sep="\n")
+    fits = {"K06, one wall": fitted(trace), "with a relaxation": fitted(trace, extended("relaxation"))}
+    draw_two(axes, below, trace, "time, s", fits)
+
+
+def wrong_needle(axes: Axes, below: Axes) -> None:
+    trace, stated = plain(), pn.Needle(1.25 * NEEDLE.diameter, NEEDLE.tip_angle)
+    free = fitted(trace, extended("tip length"), stated)
+    print(*doubt_of_needle(estimates(free), stated, UNKNOWN), sep="\n")
+    fits = {"K06, one wall": fitted(trace, PLAIN, stated), "with a tip length of its own": free}
+    draw_two(axes, below, trace, "depth, mm", fits)
+
+
+def draw_fit(axes: Axes, below: Axes, make: Callable[[], Trace]) -> None:
+    """A trace, its fit and what is left, with the places that are not explained."""
+    trace = make()
     found = fitted(trace)
     doubtful = doubts(trace, segment(trace), found, ())
     model = trace.force + found.residuals
@@ -184,10 +238,12 @@ def main() -> None:
         figure = Figure(figsize=(6.8, 2.8))
         draw(figure.subplots(gridspec_kw=grid | {"bottom": 0.17}))
         save(figure, out / f"your-trace-{name}.svg")
-    for name, make in FITS.items():
+    two = {"height_ratios": [2, 1], "bottom": 0.15, "hspace": 0.12}
+    drawn = {name: partial(draw_fit, make=make) for name, make in FITS.items()}
+    for name, draw_on in (drawn | {"drift": drift, "relaxation": relaxation, "needle": wrong_needle}).items():
         figure = Figure(figsize=(6.8, 3.0))
-        two = {"height_ratios": [2, 1], "bottom": 0.15, "hspace": 0.12}
-        draw_fit(*figure.subplots(2, 1, sharex=True, gridspec_kw=grid | two), make())
+        print(f"\n{name}")
+        draw_on(*figure.subplots(2, 1, sharex=True, gridspec_kw=grid | two))
         save(figure, out / f"your-trace-{name}.svg")
 
 
