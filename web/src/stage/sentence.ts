@@ -24,7 +24,7 @@ export class Sentence {
     const all = progress.done === TASKS.length;
     if (all && remembered("tour") === null) remember("tour", "seen");
     const exercise = app.exercise.value;
-    if (excerpt) return `The pop of the ${excerpt.event.name}, slowly.`;
+    if (excerpt) return excerpt.event ? `The pop of the ${excerpt.event.name}, slowly.` : "The moment, slowly.";
     if (paused) return "Paused; the run goes on.";
     if (!live) return `Replay of ${title}`;
     const barred = handOf(app).barred.value;
