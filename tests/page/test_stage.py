@@ -1,6 +1,7 @@
 """The stage, which opens first: one sentence, one force, one curve, at most three buttons; the needle always whole."""
 
 import pytest
+from axe import AXE, none_found
 from person import opened, view
 from playwright.sync_api import Page, expect
 from studio_process import StudioProcess
@@ -74,6 +75,8 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     push_to_a_pop(page)
     expect(sentence).to_contain_text("It gave")
     page.wait_for_function(f"() => ({ROWS})() > {before} + 20")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    none_found(page, "the stage after a pop")
     marks(page).first.click()
     expect(sentence).to_have_text("The pop of the skin, slowly.")
     page.get_by_role("button", name="Go on").click()

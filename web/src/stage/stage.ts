@@ -182,10 +182,10 @@ class Marks {
       "button",
       {
         type: "button",
-        "aria-label": `${event.name}, pop ${drop}: ${SHOW_AGAIN}`,
         title: SHOW_AGAIN,
         onclick: () => showAgain(this.app, event),
       },
+      element("span", { class: "only-read" }, `${event.name}, pop `),
       element("span", {}, drop),
       element("span", { class: "stage-slowly" }, "again, slowly"),
     );
