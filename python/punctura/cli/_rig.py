@@ -37,7 +37,7 @@ def rig_of(given: list[str] | None, needle: str) -> tuple[Rig, str]:
     """
     from punctura.identify.rig import Rig
 
-    values = {}
+    values: dict[str, float] = {}
     for name, text in pairs(given, "--rig", _EXAMPLE).items():
         value, sign, tolerance = text.replace(*_SIGN).partition("+-")
         wanted = f"{name}={text} must be as {_EXAMPLE}"

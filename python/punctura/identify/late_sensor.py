@@ -92,4 +92,4 @@ def _may_be_late(current: Candidate, names: Sequence[str]) -> bool:
     known /= np.maximum(np.sqrt(np.sum(known**2, axis=0)), 1e-300)
     left = fit.residuals - known @ np.linalg.lstsq(known, fit.residuals, rcond=1e-10)[0]
     n = len(left)
-    return n * float(np.log(fit.sse / max(float(left @ left), 1e-300))) > np.log(n) + STRONG
+    return bool(n * np.log(fit.sse / max(left @ left, 1e-300)) > np.log(n) + STRONG)
