@@ -18,7 +18,7 @@ export function tabs(entries: ReadonlyArray<readonly [id: string, label: string,
       });
       if (focus) buttons[index]!.focus();
     };
-    entries.forEach(([id, label, panel, opens], index) => {
+    entries.forEach(([id, label, panel], index) => {
       const button = element(
         "button",
         {
@@ -44,9 +44,11 @@ export function tabs(entries: ReadonlyArray<readonly [id: string, label: string,
       bodies.push(body);
       list.append(button);
       panel(body, app);
-      opens?.(app, () => choose(index, false));
     });
     host.append(list, ...bodies);
     choose(0, false);
+    entries.forEach(([, , , opens], index) => {
+      opens?.(app, () => choose(index, false));
+    });
   };
 }
