@@ -86,7 +86,7 @@ def test_the_phase_is_told_in_words_and_fits_a_phone(page):
     drag_in(page, pops=1)
     expect(page.locator(".phases")).to_contain_text("through")
     # A slow push may end at the edge of the band, where the needle still slides.
-    expect(page.locator(".phases")).to_contain_text(re.compile("sticking|sliding in"))
+    expect(page.locator(".phases")).to_contain_text(re.compile("at rest|going in"))
     page.locator(".pop-callout button").click()
     expect(page.get_by_role("button", name="Back to live")).to_be_visible()
     page.keyboard.press("Escape")

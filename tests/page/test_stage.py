@@ -70,7 +70,6 @@ def test_the_stage_opens_with_three_buttons_and_the_needle_whole_at_every_size(p
 def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_slowly(page):
     sentence = page.locator(".stage-sentence")
     expect(sentence).to_contain_text("push until it gives")
-    page.wait_for_function(f"() => ({ROWS})() > 0")  # names and numbers
     before = page.evaluate(ROWS)
     push_to_a_pop(page)
     expect(sentence).to_contain_text("It gave")
