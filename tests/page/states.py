@@ -1,4 +1,4 @@
-"""The states of the page, one after the other in one visit: what a test checks in all of them."""
+"""The states of the page, one after the other in two visits: what a test checks in all of them."""
 
 from __future__ import annotations
 
@@ -19,11 +19,16 @@ class State(NamedTuple):
     part: str = ""
 
 
-def states(page: Page) -> Iterator[State]:
+def live_states(page: Page) -> Iterator[State]:
     """Brings a page of the venipuncture, just opened, from state to state."""
     yield from _first(page)
     yield from _tabs(page)
     yield from _trouble(page)
+
+
+def attempt_states(page: Page) -> Iterator[State]:
+    """The same, from the first attempt at an exercise on. The question about sound was answered before."""
+    ready(page)
     yield from _exercise(page)
     yield from _recordings(page)
     yield from _lab(page)

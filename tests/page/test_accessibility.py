@@ -1,10 +1,13 @@
 """axe-core finds nothing serious or moderate in any state (axe.py: at which sizes); and no address is missing."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import pytest
 from axe import AXE, USUAL, check, none_found
 from person import new_context, own_exercise, ready, tab
 from playwright.sync_api import Browser, Page, expect
-from states import SHORT, states
+from states import SHORT, attempt_states, live_states
 from studio_process import StudioProcess
 
 
@@ -36,27 +39,43 @@ def the_panels_change(page: Page) -> None:
     expect(page.locator(".side")).to_be_hidden()
 
 
-def test_axe_finds_nothing_in_any_state_and_the_page_asks_for_no_missing_address(browser: Browser, studio):
+def with_axe(page: Page, url: str) -> Page:
+    page.goto(url)
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    return page
+
+
+@contextmanager
+def visited(browser: Browser, url: str, **cookie: str) -> Iterator[Page]:
+    """The page with axe-core in it. A missing address fails the test."""
     context = new_context(browser, scale=0.2, viewport={"width": USUAL[0], "height": USUAL[1]})
+    context.add_cookies([{"name": name, "value": value, "url": url} for name, value in cookie.items()])
     page = context.new_page()
     missing: list[str] = []
     page.on("response", lambda answer: missing.append(answer.url) if answer.status >= 400 else None)
-    page.goto(studio.url)
-    page.evaluate(AXE.read_text(encoding="utf-8"))
-    for name, part in states(page):
-        check(page, name, part)
-    the_panels_change(page)
-    check(page, "the projector layout")
+    yield with_axe(page, url)
     assert not missing, missing
-    viewer = context.new_page()
-    viewer.goto(studio.url)
-    viewer.evaluate(AXE.read_text(encoding="utf-8"))
-    expect(viewer.get_by_role("button", name="Take control").first).to_be_visible()
-    check(viewer, "a page without control", ".header, .side")
-    studio.end()
-    expect(viewer.locator(".header")).to_contain_text("No connection")
-    check(viewer, "a page without connection", ".header, .side")
     context.close()
+
+
+def test_axe_finds_nothing_in_any_state_of_a_live_run(browser: Browser, studio):
+    with visited(browser, studio.url) as page:
+        for name, part in live_states(page):
+            check(page, name, part)
+        the_panels_change(page)
+        check(page, "the projector layout")
+
+
+def test_axe_finds_nothing_in_attempts_recordings_and_the_lab_and_without_a_connection(browser: Browser, studio):
+    with visited(browser, studio.url, punctura_sound="off") as page:
+        for name, part in attempt_states(page):
+            check(page, name, part)
+        viewer = with_axe(page.context.new_page(), studio.url)
+        expect(viewer.get_by_role("button", name="Take control").first).to_be_visible()
+        check(viewer, "a page without control", ".header, .side")
+        studio.end()
+        expect(viewer.locator(".header")).to_contain_text("No connection")
+        check(viewer, "a page without connection", ".header, .side")
 
 
 SMALL = """() => [...document.querySelectorAll('button, summary, select, input, a[href], [role=tab], [role=separator]')]
@@ -72,9 +91,7 @@ OF_PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mo
 
 def test_for_a_finger_each_target_has_44_pixels_and_axe_finds_nothing(browser: Browser, studio):
     context = new_context(browser, scale=0.2, **OF_PHONE)
-    page = context.new_page()
-    page.goto(studio.url)
-    page.evaluate(AXE.read_text(encoding="utf-8"))
+    page = with_axe(context.new_page(), studio.url)
     expect(page.locator(".tour")).to_be_visible()
     assert page.evaluate("matchMedia('(pointer: coarse)').matches")
     small = {"the tour": page.evaluate(SMALL)}
