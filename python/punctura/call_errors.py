@@ -97,11 +97,11 @@ def _plain(text: str) -> str:
 
 def _fault(name: str, text: str, value: Any) -> str:
     """What the parameter wants, and what it got; empty if the value may fit."""
-    many = re.fullmatch(r"Sequence\[(\w+)\]", text)
-    if many and isinstance(value, list | tuple):
+    many = re.fullmatch(r"Sequence\[(.+)\]", text)
+    if many and (isinstance(value, list | tuple) or getattr(value, "shape", None)):
         return next((fault for i, one in enumerate(value) if (fault := _fault(f"{name}[{i}]", many[1], one))), "")
-    if many and _known(many[1]) and not hasattr(value, "__getitem__"):
-        return f"{name} must be a list of {many[1]}, not {_shown(value)}"
+    if many and _known(many[1]) and (isinstance(value, str | dict) or not hasattr(value, "__getitem__")):
+        return f"{name} must be a list of {many[1].removeprefix('tuple')}, not {_shown(value)}"
     kinds = [kind.strip() for kind in text.split(" | ")]
     if all(_known(kind) and not _fits(kind, value) for kind in kinds):
         return f"{name} must be {' or '.join(map(_words, kinds))}, not {_shown(value)}"
@@ -119,10 +119,13 @@ _WORDS = {
     "int": "an integer",
     "_Vector": "three numbers",
     "_Numbers": "a list of numbers",
+    "tuple[float, float]": "two numbers",
+    "tuple[float, float, float]": "three numbers",
     "numpy.typing.ArrayLike": "an array",
     "bytes": "bytes",
     "None": "None",
 }
+_LENGTHS = {"_Numbers": None, "_Vector": 3, "tuple[float, float]": 2, "tuple[float, float, float]": 3}
 _NAMED = {"str": str, "bytes": bytes, "bool": bool, "dict": dict, "None": type(None)}
 
 
@@ -143,8 +146,8 @@ def _fits(kind: str, value: Any) -> bool:
         return _is_number(value)
     if kind == "int":
         return hasattr(type(value), "__index__")
-    if kind in ("_Vector", "_Numbers"):
-        return _are_numbers(value) and (kind == "_Numbers" or len(value) == 3)
+    if kind in _LENGTHS:
+        return _are_numbers(value) and _LENGTHS[kind] in (None, len(value))
     if kind == "numpy.typing.ArrayLike":
         return value is not None
     if base == "typing.Literal":

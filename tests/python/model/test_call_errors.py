@@ -44,6 +44,11 @@ FRICTION = "membrane[0].friction"
         (lambda: core.Fleet((0, -1, 0)).step([], -1), "Fleet.step(): an argument has a wrong type or"),
         (lambda: setattr(LINE, "state", 3), "Proxy1d.state(): state must be bytes, not int."),
         (lambda: SCENE.replace(membranes=[MEMBRANE]), "membranes[0] must be a PlacedMembrane, not Membrane."),
+        (lambda: pn.Tissue(profile=[(0, 0, 0), (1, -1)]), "profile[1] must be three numbers, not tuple of length 2."),
+        (lambda: pn.Tissue(profile=np.zeros((3, 8))), "profile[0] must be three numbers, not ndarray of shape (8,)."),
+        (lambda: pn.Tissue(profile=[(0, 0, "1 N")]), "profile[0] must be three numbers, not tuple with int, str."),
+        (lambda: pn.Tissue(grip_table=[0, 1]), "grip_table[0] must be two numbers, not int."),
+        (lambda: pn.Tissue(profile="liver"), "profile must be a list of [float, float, float], not str."),
         (lambda: SCENE.replace(membranes=None), "membranes must be a list of PlacedMembrane, not NoneType."),
         (
             lambda: pn.Proxy1d(LINE, SCENE.coupling, 1e-3, solver=1),
