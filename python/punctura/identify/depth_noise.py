@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.noise import effective_samples
 from punctura.trace import Trace
+from punctura.trace.steps import equal_runs, rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
@@ -18,10 +19,13 @@ ROUNDS, NEAR = 10, 11  # of the accelerations; second differences of alike varia
 SHARED = (0.2, 0.6, 0.2)  # of the square of a second difference, with its neighbours: a turn is between two samples
 LEAST, MOST = 1e-7, 1e4  # variance of a second difference, in those of the noise
 FELT = 0.2  # of the noise of the force: what the noise of the depth adds matters beyond it
+SHARED_FELT = 0.05  # the same for an error that equal readings share
 ROUNDING = 1e-6  # of the range of the depths: less is no noise
 EVEN = 1.5  # times the shortest step of time, of the longest one
 HAND = 12.0  # Hz: a hand does not shake faster
 ALIKE = 2.0  # times the noise of every second sample, and the reverse
+TURNS, BENT = 20, 0.05  # second differences that are not 0, and their share: fewer are turns
+ROUNDED, FAR, NOISIER = 2.6, 0.02, 3.0  # a rounding is at most 1.7 standard deviations, and seems at most 2.8 of noise
 SHORTEST = 50  # samples of a trace
 WHITE = 0.8  # of the samples are independent: they are noise
 SURE = 5.0  # over sqrt(n): a greater correlation of second differences is no chance; its deviation is about 1.4
@@ -30,19 +34,48 @@ SURE = 5.0  # over sqrt(n): a greater correlation of second differences is no ch
 def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, float]:
     """The trace with the depth that the needle most likely had, and with draws of it: `trace.depths`; and the noise.
 
-    noise: of a depth, m; None: as the samples show it, if they do. The same trace and 0 come back where
-    the noise adds too little force to matter, and where the force follows the depth's noise: then the needle moved so.
-    A quiet trace comes back as it is.
+    noise: of a depth, m; None: as the samples show it, if they do, and at least their rounding. The same trace and 0
+    come back where the noise adds too little force to matter, and where the force follows the depth's noise: then the
+    needle moved so. A quiet trace comes back as it is.
     """
-    if trace.depths is not None:
+    if trace.depths is not None or len(trace) < SHORTEST:
         return trace, 0.0
-    shaking = _noise(trace) if noise is None else noise
-    if len(trace) < SHORTEST or not _matters(trace, shaking):
+    shaking = noise or 0.0
+    if noise is None and _fast(trace):
+        shaking, rounded = steady_noise(trace.depth), _rounding(trace.depth)
+        if shaking <= NOISIER * rounded and (found := _between_steps(trace, rounded)):
+            return found, rounded
+    if not _matters(trace, shaking):
         return trace, 0.0
     quiet, variances = _quiet(trace.depth / shaking)
-    if noise is None and _follows(trace, trace.depth - shaking * quiet):
+    if noise is None and _follows(trace, trace.depth / shaking - quiet):
         return trace, 0.0
-    return replace(trace, depth=shaking * quiet, depths=shaking * (quiet + _draws(variances))), shaking
+    return _drawn(trace, shaking, quiet, variances, np.ones(len(trace))), shaking
+
+
+def _between_steps(trace: Trace, rounded: float) -> Trace | None:
+    """The same for a depth with this rounding, m; None if it does not matter, or a hand has moved the needle."""
+    if not _matters(trace, rounded, SHARED_FELT):
+        return None
+    runs = np.diff(equal_runs(trace.depth))
+    weights = np.repeat(1 / runs, runs)  # equal readings have one error
+    quiet, variances = _straight(trace.depth / rounded, weights)
+    left = trace.depth / rounded - quiet
+    if np.mean(np.abs(left) > ROUNDED) > FAR or _follows(trace, left):
+        return None
+    return _drawn(trace, rounded, quiet, variances, weights)
+
+
+def _drawn(trace: Trace, noise: float, quiet: Array, variances: Array, weights: Array) -> Trace:
+    """The trace with a depth (n,), in units of the noise, m, and with draws of it."""
+    return replace(trace, depth=noise * quiet, depths=noise * (quiet + _draws(variances, weights)))
+
+
+def _rounding(depth: Array) -> float:
+    """The standard deviation of the depth's rounding, m; 0 for a machine whose speed is a step a sample."""
+    size = rounding(depth)
+    bent = np.abs(np.diff(depth, 2)) > size
+    return size if bent.sum() > max(TURNS, BENT * len(bent)) else 0.0
 
 
 def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
@@ -55,19 +88,18 @@ def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
     )
 
 
-def _matters(trace: Trace, noise: float) -> bool:
+def _matters(trace: Trace, noise: float, felt: float = FELT) -> bool:
     """Whether this noise of the depth, m, adds force that shows beside the noise of the force."""
-    rounding = noise <= ROUNDING * np.ptp(trace.depth)
-    return not rounding and noise * _stiffest(trace) > FELT * noise_of(trace.force)
+    fine = noise <= ROUNDING * np.ptp(trace.depth)
+    return not fine and noise * _stiffest(trace) > felt * noise_of(trace.force)
 
 
-def _noise(trace: Trace) -> float:
-    """The noise of the depth, m, where its samples, at even steps of time, are fast enough to tell it from a hand."""
+def _fast(trace: Trace) -> bool:
+    """Whether the samples have even steps of time, short enough to tell noise from the motion of a hand."""
     if trace.time is None:
-        return 0.0
+        return False
     steps = np.diff(trace.time)
-    fast = steps.max() < EVEN * steps.min() and 4 * HAND * float(np.mean(steps)) <= 1
-    return steady_noise(trace.depth) if fast else 0.0
+    return bool(steps.max() < EVEN * steps.min() and 4 * HAND * float(np.mean(steps)) <= 1)
 
 
 def steady_noise(depth: Array) -> float:
@@ -93,22 +125,28 @@ def _quiet(depth: Array) -> tuple[Array, Array]:
 
     A machine goes straight and turns sharply. If that leaves more than noise, a hand has moved the needle.
     """
-    variances = _of_machine(depth)
-    quiet = _solved(variances, depth)
+    ones = np.ones(len(depth))
+    quiet, variances = _straight(depth, ones)
     if effective_samples(depth - quiet) < WHITE * len(depth):
         variances = _of_hand(depth)
-        quiet = _solved(variances, depth)
+        quiet = _solved(variances, ones, depth)
     return quiet, variances
 
 
-def _of_machine(depth: Array) -> Array:
+def _straight(depth: Array, weights: Array) -> tuple[Array, Array]:
+    """The same for the motion of a machine. weights (n,): what each sample tells."""
+    variances = _of_machine(depth, weights)
+    return _solved(variances, weights, weights * depth), variances
+
+
+def _of_machine(depth: Array, weights: Array) -> Array:
     """Variances (n - 2,) of the second differences where few are not 0.
 
     They have Student's t distribution with one degree of freedom, by reweighting (Lange, Little and Taylor 1989).
     """
     variances = np.full(len(depth) - 2, 0.25)
     for _ in range(ROUNDS):
-        second = np.diff(_solved(variances, depth), 2)
+        second = np.diff(_solved(variances, weights, weights * depth), 2)
         usual = max(1.5 * float(np.median(np.abs(second))), np.sqrt(LEAST))
         variances = 0.5 * (usual**2 + np.convolve(second**2, SHARED, "same"))
     return variances
@@ -126,40 +164,40 @@ def _of_hand(depth: Array) -> Array:
     near = np.ones(NEAR) / NEAR
     variances = np.full(len(depth) - 2, 0.25)
     for _ in range(ROUNDS):
-        second = np.diff(_solved(variances, depth), 2)
+        second = np.diff(_solved(variances, np.ones(len(depth)), depth), 2)
         share = np.interp(np.log(variances), np.log(grid), shares)
         variances = np.clip(np.convolve(second**2, near, "same") / np.convolve(share, near, "same"), LEAST, MOST)
     return variances
 
 
-def _solved(variances: Array, columns: Array) -> Array:
-    """(1 + D^T diag(variances)^-1 D)^-1 columns, D: second differences."""
+def _solved(variances: Array, weights: Array, columns: Array) -> Array:
+    """(diag(weights) + D^T diag(variances)^-1 D)^-1 columns, D: second differences."""
     from scipy.linalg import solveh_banded
 
     shape = (1.0, -2.0, 1.0)
     upper = np.zeros((3, len(columns)))
-    upper[2] = 1.0
+    upper[2] = weights
     for i in range(3):
         for j in range(i, 3):
             upper[2 + i - j, j : j + len(variances)] += shape[i] * shape[j] / variances
     return np.asarray(solveh_banded(upper, columns))
 
 
-def _draws(variances: Array) -> Array:
+def _draws(variances: Array, weights: Array) -> Array:
     """Draws (m, n) of what is wrong with the most likely depth, in units of the noise: the same in every run."""
     samples = len(variances) + 2
     rng = np.random.default_rng(0)
     count = int(np.clip(NUMBERS // samples, FEWEST_DRAWS, DRAWS))
-    pushes = rng.normal(size=(samples, count))
+    pushes = rng.normal(size=(samples, count)) * np.sqrt(weights)[:, None]
     bent = rng.normal(size=(samples - 2, count)) / np.sqrt(variances)[:, None]
     pushes[:-2] += bent
     pushes[1:-1] -= 2 * bent
     pushes[2:] += bent
-    return _solved(variances, pushes).T
+    return _solved(variances, weights, pushes).T
 
 
 def _follows(trace: Trace, left: Array) -> bool:
-    """Whether the force follows what the quiet depth leaves (n,), m."""
+    """Whether the force follows what the quiet depth leaves (n,)."""
     left, force = np.diff(left, 2), np.diff(trace.force, 2)
     size = float(np.sqrt((left @ left) * (force @ force)))
     return size > 0 and float(left @ force) / size > SURE / np.sqrt(len(left))

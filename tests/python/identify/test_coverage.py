@@ -24,6 +24,8 @@ SOME = 4  # traces, in every run of the tests
         (Conditions(), 0.93), (Conditions(correlation=0.5), 0.93), (Conditions(correlation=0.9), 0.93),
         (Conditions(drift=0.01), 0.93), (Conditions(drift=0.03), 0.85), (Conditions(rate=40), 0.93),
         (Conditions(machine=True, depth_noise=10e-6), 0.93), (Conditions(machine=True, tolerance=0.03), 0.93),
+        (Conditions(machine=True, lag=0.02), 0.93), (Conditions(machine=True, delay=0.02), 0.93),
+        (Conditions(machine=True, depth_step=10e-6, force_step=20e-3), 0.93),
     ],
 )  # fmt: skip
 def test_intervals_of_95_percent_hold_the_truth(given, level):

@@ -161,6 +161,41 @@ def test_a_short_trace_says_that_a_stated_noise_is_not_used():
         assert not any("needs 50 samples" in one for one in identify(short, needle, 1, rig=rig).verdicts)
 
 
+STEP = 10e-6
+
+
+def by_steps(seed, **more):
+    return random_trace(seed, Conditions(machine=True, depth_step=STEP, **more))
+
+
+@pytest.mark.parametrize("seed", [1, 5])
+def test_steps_of_the_depth_reach_the_interval_of_the_spring(seed):
+    trace, needle, truth = by_steps(seed, force_step=20e-3)
+    found = identify(trace, needle, 1)
+    spring = next(one for one in found.estimates if one.name == "coupling_stiffness")
+    assert spring.low <= truth["coupling_stiffness"] <= spring.high < 1.2 * spring.low
+    (known,) = found.rig
+    assert (known.name, known.value) == ("depth_noise", pytest.approx(STEP / np.sqrt(12)))
+
+
+def test_the_depth_between_its_steps_knows_its_own_error():
+    """In the rest, all samples have the same error."""
+    off, told = [], []
+    for seed in range(1, 13):
+        exact = by_machine(seed, 0.0)[0]
+        quiet, size = with_quiet_depth(by_steps(seed)[0])
+        assert size == pytest.approx(STEP / np.sqrt(12))
+        rest = (exact.time > 2.25) & (exact.time < 2.55)
+        off.append(np.mean((quiet.depth - exact.depth)[rest]))
+        told.append(quiet.depths[:, rest].mean(axis=1).std())
+    assert 0.7 < np.sqrt(np.mean(np.square(told)) / np.mean(np.square(off))) < 1.2
+
+
+def test_a_noise_that_is_larger_than_the_steps_is_found():
+    trace, _, _ = by_steps(1, depth_noise=20e-6)
+    assert with_quiet_depth(trace)[1] == pytest.approx(20e-6, rel=0.25)
+
+
 def test_a_part_of_a_trace_has_that_part_of_the_draws():
     quiet, _ = with_quiet_depth(by_machine(1)[0])
     part = quiet[100:400:3]
