@@ -25,7 +25,7 @@ ROOMS = (
     "core/punctura/lab/events",  # no tick of a device needs the rooms of lab
     "core/punctura/lab/trace",
     "core/punctura/lab/plant",
-    "core/punctura/punctura.hpp",  # includes all of core
+    "core/punctura/punctura.hpp",  # includes most of core
     "runtime/punctura_runtime",
     "capi",
     "python/bindings",

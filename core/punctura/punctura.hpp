@@ -1,4 +1,5 @@
-// Includes all headers of Punctura's core. A project that needs only one folder can include its headers instead.
+// Includes what computes a force, with scenes, states, rivals, events and plant. Headers of one's own devices, of
+// lab/trace, of keys of scene files and of a thumb on the plunger are included one by one, as any folder can be.
 #pragma once
 
 #include "punctura/insertion/insertion.hpp"
