@@ -52,7 +52,7 @@ def simulate(scene: Path, time: Array, depth: Array) -> Array:
     with tempfile.TemporaryDirectory() as folder:
         motion, out = Path(folder, "motion.csv"), Path(folder, "out.csv")
         write_motion(motion, time, depth)
-        command = [sys.executable, "-m", "punctura.cli", "simulate", scene, "--motion", motion, "--out", out]
+        command = [sys.executable, "-m", "punctura", "simulate", scene, "--motion", motion, "--out", out]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         return np.genfromtxt(out, delimiter=",", names=True, usecols=("time_s", "y_m", "fy_N"))
 

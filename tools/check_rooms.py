@@ -64,6 +64,7 @@ ROOMS = (
     "python/punctura/studio/wire",
     "python/punctura/studio",
     "python/punctura/cli",
+    "python/punctura/__main__.py",
     "web/src/format.ts",
     "web/src/frames.ts",
     "web/src/wire",

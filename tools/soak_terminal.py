@@ -48,7 +48,7 @@ class Headless:
 
     def __init__(self, name: str, folder: Path, stderr: int, seconds: float) -> None:
         self.name, self.path = name, folder / f"{name.replace(' ', '-')}.parquet"
-        command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+        command = [sys.executable, "-m", "punctura", "run", "--headless", "--device", "simulated"]
         command += ["--record", str(self.path)]
         self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=stderr)
         self.memory = Memory(seconds, WARM)

@@ -20,7 +20,7 @@ from waiting import wait_until
 
 SHORT_S = 120.0
 PATIENCE_S = 120.0  # wait for the address; long enough for a busy computer
-PUNCTURA = (sys.executable, "-m", "punctura.cli")
+PUNCTURA = (sys.executable, "-m", "punctura")
 ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/\?token=\S+")
 
 

@@ -161,7 +161,7 @@ def own_folder(namespace: dict[str, Any]) -> None:
     folder = Path(tempfile.mkdtemp(prefix="punctura-page-"))
     (folder / "bin").mkdir()
     program = folder / "bin" / "punctura"
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m punctura.cli "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m punctura "$@"\n')
     program.chmod(0o755)
     (folder / "work").mkdir()
     (folder / "work" / "run").symlink_to(program)  # ./run VERB is punctura VERB

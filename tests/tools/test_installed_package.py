@@ -19,7 +19,7 @@ def headers(folder: Path) -> dict[str, bytes]:
 
 
 def punctura_paths(*options: str) -> str:
-    command = [sys.executable, "-m", "punctura.cli", "paths", *options]
+    command = [sys.executable, "-m", "punctura", "paths", *options]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 

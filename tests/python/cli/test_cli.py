@@ -6,6 +6,7 @@ import io
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -22,7 +23,7 @@ HEADER = "time_s,x_m,y_m,z_m\n"
 
 def in_a_process(*arguments, **more):
     """Like the fixture `punctura`, but slow: a process starts."""
-    command = [sys.executable, "-m", "punctura.cli", *map(str, arguments)]
+    command = [sys.executable, "-m", "punctura", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, **more)
 
 
@@ -96,7 +97,7 @@ def test_every_verb_ends_with_a_status_of_the_table(punctura, arguments, status,
 def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
     with open("/dev/full", "w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "punctura.cli", *arguments],
+            [sys.executable, "-m", "punctura", *arguments],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -190,6 +191,16 @@ def test_missing_files_and_a_wrong_ending_are_called_wrongly(punctura, here):
     )
 
 
+def test_an_example_file_is_what_the_printed_command_reads(punctura, here):
+    for kind, file in (("motion", "motion.csv"), ("trace", "a trace.csv")):
+        done = punctura("example", kind, *(["--out", file] if file != f"{kind}.csv" else []))
+        assert done.status == 0 and done.stdout.startswith(f"{file}: ")
+        program, *command = shlex.split(done.stdout.partition("Next: ")[2])
+        assert program == "punctura" and punctura(*command).status == 0
+        again = punctura("example", kind, "--out", file)
+        assert again.status == CALLED_WRONGLY and "exists already" in again.stderr
+
+
 READS_A_FILE = {
     "rivals": [],
     "exercise score": ["--exercise", "epidural"],
@@ -231,7 +242,7 @@ def writes_in(folder, pid):
 def test_a_signal_leaves_nothing_behind(tmp_path, name):
     slow = tmp_path / "slow.csv"
     slow.write_text(HEADER + "".join(f"{k / 10},0,0,0\n" for k in range(400_000)))  # 64 million ticks
-    command = [sys.executable, "-m", "punctura.cli", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
+    command = [sys.executable, "-m", "punctura", "simulate", "k06-fig10", "--motion", "slow.csv", "--out", "o.csv"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals)
     wait_until(lambda: writes_in(tmp_path, process.pid) or process.poll() is not None)
     assert process.poll() is None
@@ -249,7 +260,7 @@ def close_stderr():
 @pytest.mark.skipif(os.name != "posix", reason="closes a stream as a shell does")
 @pytest.mark.parametrize("arguments", [["run", "no-such-scene", "--headless"], ["scenes", "--no-such-option"]])
 def test_without_a_standard_error_nothing_is_said_elsewhere_and_the_status_is_right(arguments):
-    command = [sys.executable, "-m", "punctura.cli", *arguments]
+    command = [sys.executable, "-m", "punctura", *arguments]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=close_stderr)
     assert (done.returncode, done.stdout) == (2, "")
 
@@ -322,7 +333,7 @@ def test_a_verb_with_tables_does_not_import_pandas(tmp_path):
     command = ["simulate", "k06-fig10", "--motion", "motion.csv", "--out", "o.csv"]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])}
     done = subprocess.run(
-        [sys.executable, "-m", "punctura.cli", *command], capture_output=True, text=True, cwd=tmp_path, env=environment
+        [sys.executable, "-m", "punctura", *command], capture_output=True, text=True, cwd=tmp_path, env=environment
     )
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "o.csv").exists() and not (tmp_path / "imported").exists()

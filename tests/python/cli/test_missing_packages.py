@@ -46,6 +46,7 @@ FILES, IDENTIFY = ("pyarrow", "files"), ("pyarrow", "identify")
 CALLS = {
     "rivals any.csv": IDENTIFY,
     "devices": NOTHING,
+    "example motion": NOTHING,
     "exercise list": NOTHING,
     "exercise score any.parquet --exercise venipuncture": FILES,
     "exercise export --format csv --results .": NOTHING,

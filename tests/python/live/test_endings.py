@@ -21,7 +21,7 @@ from waiting import PATIENCE_S, wait_until
 
 SCENE_NAME = pn.load_scene("venipuncture").name
 SCENE = pn.load_scene("k06-fig10")
-RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+RUN = [sys.executable, "-m", "punctura", "run", "--headless", "--device", "simulated"]
 
 
 def running(path, *options, **more):

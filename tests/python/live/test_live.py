@@ -195,7 +195,7 @@ def test_an_unknown_device_is_a_usage_error(punctura):
 @pytest.mark.skipif(os.name != "posix", reason="sends signals")
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
 def test_a_signal_ends_the_run_with_the_force_off(name):
-    command = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--scene-filter"]
+    command = [sys.executable, "-m", "punctura", "run", "--headless", "--scene-filter"]
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed_signals
     )

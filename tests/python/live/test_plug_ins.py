@@ -35,7 +35,7 @@ def package(folder, module, text, name="mine"):
 
 def punctura(folder, *arguments):
     environment = {**os.environ, "PYTHONPATH": str(folder)}
-    command = [sys.executable, "-m", "punctura.cli", *arguments]
+    command = [sys.executable, "-m", "punctura", *arguments]
     return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE_S)
 
 

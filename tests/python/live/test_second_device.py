@@ -163,7 +163,7 @@ def test_a_library_that_dies_ends_the_run_of_both(pair, which):
 
 def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bits(tmp_path):
     path = tmp_path / "both.parquet"
-    command = [sys.executable, "-m", "punctura.cli", "run", "epidural", "--headless", "--device", "simulated"]
+    command = [sys.executable, "-m", "punctura", "run", "epidural", "--headless", "--device", "simulated"]
     more = ["--second-device", "simulated", "--duration", "3", "--json", "--record", str(path)]
     done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 0, done.stderr

@@ -20,7 +20,7 @@ from terminals import BLOCKED, stop, terminal, unread_pipe
 from waiting import PATIENCE_S
 
 SCENE = pn.load_scene("k06-fig10")
-RUN = [sys.executable, "-m", "punctura.cli", "run", "--headless", "--device", "simulated"]
+RUN = [sys.executable, "-m", "punctura", "run", "--headless", "--device", "simulated"]
 
 # Says on stdout what happens to its loop, while its main thread writes to a pipe that nobody reads.
 BLOCKED_PROGRAM = """

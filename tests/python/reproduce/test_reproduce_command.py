@@ -17,7 +17,7 @@ pytestmark = pytest.mark.xdist_group("reproduction")  # in one worker: what they
 
 def command(*arguments: str, cwd: Path, **environment: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "punctura.cli", "reproduce", *arguments],
+        [sys.executable, "-m", "punctura", "reproduce", *arguments],
         cwd=cwd, env={**os.environ, **environment}, capture_output=True, text=True, timeout=300, check=False,
     )  # fmt: skip
 

@@ -21,7 +21,7 @@ from waiting import PATIENCE_S, wait_until
 def start(tmp_path, *more, **environment):
     (tmp_path / "page").mkdir(exist_ok=True)
     (tmp_path / "page" / "index.html").write_text("<!doctype html>")
-    command = [sys.executable, "-m", "punctura.cli", "run", "k06-fig10", "--no-browser", "--device", "simulated"]
+    command = [sys.executable, "-m", "punctura", "run", "k06-fig10", "--no-browser", "--device", "simulated"]
     command += ["--page", str(tmp_path / "page"), "--recordings", str(tmp_path / "kept"), *more]
     return subprocess.Popen(
         command,

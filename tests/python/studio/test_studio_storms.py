@@ -241,7 +241,7 @@ def test_more_connections_with_the_token_than_there_are_places_are_told_so(guard
 def test_a_recording_begins_and_ends_among_more_connections_than_open_files(tmp_path):
     (tmp_path / "page").mkdir()
     (tmp_path / "page" / "index.html").write_text("<!doctype html>")
-    command = [sys.executable, "-m", "punctura.cli", "run", "k06-fig10", "--no-browser", "--device", "simulated"]
+    command = [sys.executable, "-m", "punctura", "run", "k06-fig10", "--no-browser", "--device", "simulated"]
     command += ["--page", str(tmp_path / "page"), "--recordings", str(tmp_path / "kept")]
     studio = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals_with_few_files

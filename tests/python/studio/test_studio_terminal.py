@@ -62,7 +62,7 @@ def test_pause_is_answered_while_nobody_reads_a_flood_of_log_lines(tmp_path, blo
 def studio(tmp_path, slave, *more):
     (tmp_path / "page").mkdir()
     (tmp_path / "page" / "index.html").write_text("<!doctype html>")
-    command = [sys.executable, "-m", "punctura.cli", "run", "--no-browser", "--device", "simulated"]
+    command = [sys.executable, "-m", "punctura", "run", "--no-browser", "--device", "simulated"]
     command += ["--page", str(tmp_path / "page"), "--recordings", str(tmp_path / "kept"), *more]
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     return subprocess.Popen(command, stdin=slave, stdout=slave, stderr=slave, env=environment, preexec_fn=heed_signals)

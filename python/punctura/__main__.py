@@ -1,0 +1,5 @@
+"""`python -m punctura` is `punctura`."""
+
+from punctura.cli import main
+
+main()

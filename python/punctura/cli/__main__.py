@@ -1,5 +1,0 @@
-"""`python -m punctura.cli` is `punctura`."""
-
-from punctura.cli import main
-
-main()
