@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
@@ -80,13 +80,16 @@ def _values_with(base: Parameters, of: Fit) -> Array:
 
 
 def _widened(one: Estimate, free: Free, j: int, moved: Sequence[float]) -> Estimate:
+    if not np.isfinite(moved).all():
+        return replace(one, low=None, high=None)
     logarithmic = free.logarithmic(j)
-    if one.low is None or one.high is None or not np.isfinite(moved).all():
-        bad = not np.isfinite(moved).all()
-        return replace(one, low=None if bad else one.low, high=None if bad else one.high)
-    low, value, high, *ends = (float(np.log(v)) if logarithmic else v for v in (one.low, one.value, one.high, *moved))
-    down, up = max(value - min(ends), 0.0), max(max(ends) - value, 0.0)
-    low, high = value - float(np.hypot(value - low, down)), value + float(np.hypot(high - value, up))
-    if logarithmic:
-        return replace(one, low=float(np.exp(low)), high=float(np.exp(high)))
-    return replace(one, low=max(low, float(free.low[j])) if one.low >= 0 else low, high=high)
+    to: Callable[[float], float] = np.log if logarithmic else float
+    back: Callable[[float], float] = np.exp if logarithmic else float
+    value, ends = to(one.value), [to(v) for v in moved]
+    low, high = one.low, one.high  # each widens also where the other is not known
+    if low is not None:
+        wide = float(back(value - np.hypot(value - to(low), max(value - min(ends), 0.0))))
+        low = max(wide, float(free.low[j])) if low >= 0 and not logarithmic else wide
+    if high is not None:
+        high = float(back(value + np.hypot(to(high) - value, max(max(ends) - value, 0.0))))
+    return replace(one, low=low, high=high)

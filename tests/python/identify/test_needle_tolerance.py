@@ -1,6 +1,7 @@
 """A needle that is stated with a tolerance: the intervals hold the truth also where it is thicker than stated."""
 
 import runpy
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from punctura.cli._rig import rig_of
 from punctura.errors import ConfigurationError
 from punctura.identify import Rig, identify
 from punctura.identify.folder import Task, identify_folder
+from punctura.identify.needle_tolerance import with_tolerance
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
 THICKER = 1.04
@@ -31,6 +33,15 @@ def test_a_stated_tolerance_reaches_the_intervals():
         assert other.value == one.value and other.low <= one.low and other.high >= one.high
     (known,) = found.as_dict()["rig"]
     assert (known["name"], known["unit"], known["stated"]) == ("diameter_tolerance", "m", True)
+
+
+def test_a_bound_widens_also_where_the_other_one_is_not_known():
+    trace, needle, _ = TOOL["random_trace"](2, TOOL["Conditions"](machine=True))
+    found, rig = identify(trace, needle, 1), Rig(diameter_tolerance=0.03 * needle.diameter)
+    both = with_tolerance(found.estimates, found.fit, rig)
+    for side in ("low", "high"):
+        alone = with_tolerance([replace(one, **{side: None}) for one in found.estimates], found.fit, rig)
+        assert alone == tuple(replace(one, **{side: None}) for one in both)
 
 
 @pytest.mark.parametrize("factor", [0.8, 1.25])
