@@ -57,9 +57,14 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
    * is held is known from the keyboard's first repeat, or from another key: then the keyboard repeats only that one.
    */
   const held = new Map<string, number | null>();
+  const release = (): void => {
+    held.clear();
+    thumb.push("key", 0);
+  };
 
   canvas.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    // macOS sends no keyup of a key that is released while Command is held.
+    if (event.ctrlKey || event.metaKey || event.altKey) return release();
     const key = keyOf(event);
     const move = moves[key];
     const act = actions[key];
@@ -89,8 +94,5 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     if (event.key === "Shift") long = 1;
     if (event.key === " ") thumb.push("key", 0);
   });
-  canvas.addEventListener("blur", () => {
-    held.clear();
-    thumb.push("key", 0);
-  });
+  canvas.addEventListener("blur", release);
 }

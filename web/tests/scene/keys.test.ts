@@ -95,3 +95,14 @@ it("Space pushes the plunger while it is held, and losing the focus lets go", ()
   canvas.dispatchEvent(new Event("blur"));
   expect(pushes).toEqual([4, 0, 0]);
 });
+
+it("with Command or another such key nothing is held: macOS sends no keyup then", () => {
+  key("keydown", "ArrowDown");
+  key("keydown", "ArrowDown", { repeat: true });
+  key("keydown", " ");
+  key("keydown", "Meta", { metaKey: true });
+  const before = deep();
+  frame(500);
+  expect(deep()).toBe(before);
+  expect(pushes.at(-1)).toBe(0);
+});
