@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
-from punctura.trace.samples import gaps_and_spikes, nothing_seen
+from punctura.trace.samples import cut_off, gaps_and_spikes, nothing_seen
 from punctura.trace.segment import Segments, segment
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -47,8 +47,8 @@ def examine(trace: Trace) -> Trace:
             trace = replace(trace, force=trace.force - zero)
             segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N before contact; this is subtracted", True))
-    found += [*_units(trace), *gaps_and_spikes(trace), *_drift(trace, segments), *_depth_axis(trace, segments)]
-    found += _missing(trace, segments)
+    found += [*_units(trace), *gaps_and_spikes(trace), *cut_off(trace), *_drift(trace, segments)]
+    found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
     return replace(trace, findings=(*trace.findings, *found))
 
 

@@ -1,4 +1,4 @@
-"""Names what is wrong with the samples themselves: no motion, no force, gaps, spikes."""
+"""Names what is wrong with the samples themselves: no motion, no force, gaps, spikes, a force that is cut off."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from punctura.trace.air import smooth
+from punctura.trace.air import baseline, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -42,3 +42,23 @@ def gaps_and_spikes(trace: Trace) -> Iterator[Finding]:
     if len(spikes):
         text = f"samples that stand out from both neighbours: {len(spikes)}, by up to {alone.max():.3g} N"
         yield Finding("spikes", f"{text}; the first is sample {int(spikes[0]) + 2}. Leave them out")
+
+
+def cut_off(trace: Trace) -> Iterator[Finding]:
+    """A force that stands at its greatest or its least value, while it moves elsewhere: the sensor's range ends there.
+
+    The other values are compared, too: a sensor of coarse steps or a slow one repeats all of its values.
+    """
+    force = trace.force
+    starts = np.flatnonzero(np.concatenate(([True], np.diff(force) != 0)))
+    lengths, values = np.diff(np.append(starts, len(force))), force[starts]
+    zero, height = baseline(force), float(np.max(np.abs(force - baseline(force))))
+    ends = [end for end in (float(force.max()), float(force.min())) if abs(end - zero) > 0.1 * height]
+    usual = int(lengths[~np.isin(values, ends)].max(initial=1))
+    for end in ends:
+        longest = int(lengths[values == end].max())
+        if longest >= 5 and longest > 3 * usual:
+            first = int(starts[(values == end) & (lengths == longest)][0]) + 1
+            text = f"the force stands at {end:.4g} N for {longest} samples, from sample {first} on, and goes no further"
+            advice = "what it was there is not known, so the fit is wrong. Take a sensor of a larger range"
+            yield Finding("cut_off", f"{text}: perhaps the sensor or its amplifier is at its limit; {advice}")

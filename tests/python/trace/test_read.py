@@ -127,6 +127,7 @@ CHANGES = {
     "gap": lambda made: {"time_s": made.time + (np.arange(len(made)) > 150)},
     "time_doubtful": lambda made: {"time_s": made.time * 1e3},
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
+    "cut_off": lambda made: {"force_N": np.minimum(made.force, 0.7 * made.force.max())},
     "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
 
@@ -138,6 +139,13 @@ def test_each_defect_is_named_and_no_other(tmp_path, kind):
     assert kinds(read) == {kind}
     if kind in ("reversed_sign", "offset"):
         assert read.force == pytest.approx(made.force, abs=5e-3)
+
+
+@pytest.mark.parametrize("changed", [lambda force: np.round(force, 1), lambda force: np.repeat(force[::10], 10)])
+def test_a_force_in_coarse_steps_or_from_a_slow_logger_is_not_called_cut_off(tmp_path, changed):
+    made = trace(hold=0.4)
+    columns = columns_of(made, force_N=changed(made.force)[: len(made)])
+    assert "cut_off" not in kinds(read_trace(write_csv(tmp_path / "a.csv", columns)))
 
 
 @pytest.mark.parametrize(
