@@ -6,10 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
+from punctura.trace.steps import equal_runs, rounding
 
 Array = NDArray[np.float64]
 
 CHI2_95 = 3.841458820694124  # 95 % of chi-squared with one degree of freedom
+
+
+ROUND = 0.75  # of the rms error, from which on it is a rounding
 
 
 class Uncertainty:
@@ -26,7 +30,7 @@ class Uncertainty:
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
         correlated = fit.noise.spread(inverse)
-        correlated += inverse @ (_between_samples(fit) + _of_depth(fit)) @ inverse
+        correlated += inverse @ (_between_samples(fit) + _of_depth(fit) + _of_steps(fit)) @ inverse
         plain = np.maximum(self.variance * np.diag(inverse), 1e-300)
         self.covariance = correlated + np.diag(np.maximum(plain - np.diag(correlated), 0.0))
         self.inflation = np.diag(self.covariance) / plain  # of each parameter's variance
@@ -51,6 +55,19 @@ def _of_depth(fit: Fit) -> Array:
     shared = fit.jacobian.T @ errors.T / np.sqrt(len(errors) - 1)
     own = fit.jacobian.T @ (errors.var(axis=0, ddof=1)[:, None] * fit.jacobian)
     return np.asarray(shared @ shared.T - own)
+
+
+def _of_steps(fit: Fit) -> Array:
+    """What adds to J^T V J (p, p), because equal readings of the force in turn have one rounding error.
+
+    Noise that is larger than the steps makes the roundings independent.
+    """
+    force = fit.misfit.trace.force[fit.misfit.used]
+    rounded = rounding(force)
+    if rounded < ROUND * fit.weighted_rmse:
+        return np.zeros((fit.jacobian.shape[1],) * 2)
+    shared = np.add.reduceat(fit.jacobian, equal_runs(force)[:-1], axis=0)
+    return np.asarray(rounded**2 * (shared.T @ shared - fit.jacobian.T @ fit.jacobian))
 
 
 def _between_samples(fit: Fit) -> Array:

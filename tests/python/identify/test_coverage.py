@@ -26,6 +26,7 @@ SOME = 4  # traces, in every run of the tests
         (Conditions(machine=True, depth_noise=10e-6), 0.93), (Conditions(machine=True, tolerance=0.03), 0.93),
         (Conditions(machine=True, lag=0.02), 0.93), (Conditions(machine=True, delay=0.02), 0.93),
         (Conditions(machine=True, depth_step=10e-6, force_step=20e-3), 0.93),
+        (Conditions(machine=True, noise=3e-3, force_step=20e-3), 0.9),
     ],
 )  # fmt: skip
 def test_intervals_of_95_percent_hold_the_truth(given, level):
@@ -44,8 +45,9 @@ def test_what_no_method_could_tell_is_never_called_identifiable():
     assert not any(row.identifiable for row in hidden)
 
 
-def test_intervals_hold_the_truth_with_slow_noise():
-    rows = [row for seed in range(1, SOME + 1) for row in tried(seed, Conditions(drift=0.03))]
+@pytest.mark.parametrize("given", [Conditions(drift=0.03), Conditions(machine=True, noise=3e-3, force_step=20e-3)])
+def test_intervals_hold_the_truth_with_slow_noise_and_with_steps(given):
+    rows = [row for seed in range(1, SOME + 1) for row in tried(seed, given)]
     shown = [row for row in rows if row.identifiable]
     assert len(shown) > 4 * SOME and sum(row.held for row in shown) >= len(shown) - 2
 
