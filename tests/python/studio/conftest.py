@@ -20,7 +20,9 @@ def serve(folder, scene="k06-fig12", settings=None, **more):
     (page / "assets").mkdir(parents=True, exist_ok=True)
     (page / "index.html").write_text("<!doctype html><title>page</title>")
     (page / "assets" / "a.js").write_text("1")
-    server = StudioServer(from_name(scene), settings or Settings(limits=PATIENT), page=page, folder=folder / "kept", **more)
+    server = StudioServer(
+        from_name(scene), settings or Settings(limits=PATIENT), page=page, folder=folder / "kept", **more
+    )
     server.start()
     return server
 
