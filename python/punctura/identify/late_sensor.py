@@ -34,7 +34,7 @@ def with_late_sensor(search: Search, current: Candidate) -> Candidate:
             continue
         starts = [Start(free.parameters(u)) for free, u in (_late(best, names, late) for late in TYPICAL)]
         found = search.fitted(" and ".join(names), model, starts)
-        if found is None or max(map(abs, found.fit.parameters.late)) > HALT * LATEST:
+        if found is None or max(abs(found.fit.parameters.late[LATE.index(name)]) for name in names) > HALT * LATEST:
             continue
         if search.rule.prefers(found, best):
             best = found

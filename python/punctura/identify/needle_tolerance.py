@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import chain
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,14 @@ def with_tolerance(found: Sequence[Estimate], of: Fit, rig: Rig) -> tuple[Estima
 
 def doubt_of_needle(found: Sequence[Estimate], needle: Needle, rig: Rig) -> tuple[str, ...]:
     """One sentence, if the tip length that fits is not that of any needle within the tolerances."""
-    tips = [one.diameter / np.tan(one.tip_angle) for one in (needle, *chain(*_ends(needle, rig)))]
+    diameters, angles = (
+        [value, value - tolerance, value + tolerance]
+        for value, tolerance in (
+            (needle.diameter, rig.diameter_tolerance),
+            (needle.tip_angle, rig.tip_angle_tolerance),
+        )
+    )
+    tips = [diameter / np.tan(angle) for diameter, angle in product(diameters, angles)]
     one = next((one for one in found if one.name == "tissue.tip_length"), None)
     if one is None or one.low is None or one.high is None:
         return ()

@@ -12,7 +12,8 @@ from punctura.cli._rig import rig_of
 from punctura.errors import ConfigurationError
 from punctura.identify import Rig, identify
 from punctura.identify.folder import Task, identify_folder
-from punctura.identify.needle_tolerance import with_tolerance
+from punctura.identify.intervals import Estimate
+from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
 THICKER = 1.04
@@ -33,6 +34,14 @@ def test_a_stated_tolerance_reaches_the_intervals():
         assert other.value == one.value and other.low <= one.low and other.high >= one.high
     (known,) = found.as_dict()["rig"]
     assert (known["name"], known["unit"], known["stated"]) == ("diameter_tolerance", "m", True)
+
+
+@pytest.mark.parametrize(("share", "doubted"), [(0.999, False), (1.001, True)])
+def test_a_tip_at_both_tolerances_is_that_of_the_needle(share, doubted):
+    needle, rig = Needle(1.2e-3, 0.4), Rig(diameter_tolerance=0.05e-3, tip_angle_tolerance=0.03)
+    longest = (needle.diameter + 0.05e-3) / np.tan(needle.tip_angle - 0.03)
+    tip = Estimate("tissue.tip_length", share * longest, share * longest, 2 * longest, "m")
+    assert bool(doubt_of_needle([tip], needle, rig)) is doubted
 
 
 def test_a_bound_widens_also_where_the_other_one_is_not_known():
