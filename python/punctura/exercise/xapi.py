@@ -103,7 +103,7 @@ def statement(result: Result, home: str = HOME) -> Statement:
     verb = _verb(result)
     exercise = f"{home}/exercises/{result.exercise}"
     person = result.person or NOBODY
-    said: Statement = {
+    made: Statement = {
         "id": str(uuid.uuid5(uuid.NAMESPACE_URL, f"{home}/results/{result.name or result.date}")),
         "actor": {"objectType": "Agent", "name": person, "account": {"homePage": home, "name": person}},
         "verb": {"id": VERBS + verb, "display": {"en": verb}},
@@ -123,8 +123,8 @@ def statement(result: Result, home: str = HOME) -> Statement:
             "name": result.group,
             "account": {"homePage": home, "name": result.group},
         }
-        said["context"]["team"] = group
-    return said
+        made["context"]["team"] = group
+    return made
 
 
 def _verb(result: Result) -> str:

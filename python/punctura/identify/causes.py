@@ -62,12 +62,12 @@ class _Left:
         return float(np.linalg.lstsq(known / size, self.left, rcond=1e-8)[0][0] / size[0])
 
 
-def causes(trace: Trace, segments: Segments, fit: Fit, told: Explained) -> tuple[Cause, ...]:
+def causes(trace: Trace, segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:
     """The causes that could explain what is left, the best one first. Empty if the trace is explained."""
-    if told.ok:
+    if assessment.ok:
         return ()
-    of = _left(trace, segments, fit, told.blocks)
-    chance = len(of.left) * told.blocks.noise**2
+    of = _left(trace, segments, fit, assessment.blocks)
+    chance = len(of.left) * assessment.blocks.noise**2
     before = of.cost()
     beyond = max(before - chance, 1e-300)
     ways = both_ways(trace, segments, fit)
@@ -77,7 +77,7 @@ def causes(trace: Trace, segments: Segments, fit: Fit, told: Explained) -> tuple
         *_speeds(of),
         *_again(of),
         *_ripple(of),
-        *_profile(of, told),
+        *_profile(of, assessment),
     ):
         share = min((before - of.cost(*columns)) / beyond, 1.0)
         if share > ENOUGH:
@@ -179,7 +179,7 @@ def _ripple(of: _Left) -> Iterator[Tried]:
     yield "ripple", text, best[2]
 
 
-def _profile(of: _Left, told: Explained) -> Iterator[Tried]:
+def _profile(of: _Left, assessment: Explained) -> Iterator[Tried]:
     """Any force that depends on the depth alone, on the first way in."""
     first = (of.kinds == "in") & (of.insertions == 0)
     if first.sum() < 12:
@@ -188,7 +188,7 @@ def _profile(of: _Left, told: Explained) -> Iterator[Tried]:
     knots = np.quantile(depth[first], np.linspace(0, 1, min(KNOTS, int(first.sum()) // 4)))
     knots = np.unique(knots)
     hats = [np.where(first, np.interp(depth, knots, np.eye(len(knots))[i]), 0.0) for i in range(len(knots))]
-    inward = [place for place in told.places if place.kind == "in"]
+    inward = [place for place in assessment.places if place.kind == "in"]
     where = f" ({inward[0].shallow * 1e3:.4g} to {inward[0].deep * 1e3:.4g} mm)" if inward else ""
     text = (
         f"Another force over the depth on the way in would explain it{where}: a wall more, or another law of the "

@@ -43,9 +43,9 @@ class Choice:
     def candidates(self) -> tuple[Candidate, ...]:
         """The chosen model first; it and K06 have a held-out error."""
         rule = self.search.rule
-        told = {one: rule.held_out_error(one) for one in (self.current, self.plain)}
+        errors = {one: rule.held_out_error(one) for one in (self.current, self.plain)}
         rest = [one for one in self.search.tried if one is not self.current]
-        return tuple(replace(one, held_out=told.get(one)) for one in (self.current, *rest))
+        return tuple(replace(one, held_out=errors.get(one)) for one in (self.current, *rest))
 
     def settle(self) -> None:
         """Chooses a model, and again as long as hops find a better optimum of the chosen one."""
@@ -117,13 +117,13 @@ def choose(
     segments: Segments,
     needle: Needle,
     membranes: int,
-    tell: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], None] = lambda _: None,
     *,
     most: int | None = None,
     rig: Rig = UNKNOWN,
 ) -> Choice:
     """Tries the models that this trace may ask for, and chooses one."""
-    search = Search(trace, segments, needle, tell, rig.late)
+    search = Search(trace, segments, needle, report, rig.late)
     drift = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
     plain = search.fitted("K06", Model(membranes, drift=drift), search.starts(membranes, False, 3))
     assert plain is not None

@@ -32,14 +32,14 @@ class Doubts:
 
     def as_dict(self) -> ExplainedRecord:
         """As plain values for JSON, SI."""
-        told = self.explained
+        assessment = self.explained
         return {
-            "explained": told.ok, "left_N": told.left, "noise_N": told.noise, "noise_is_of_air": told.air,
-            "runs": told.runs, "runs_of_noise": told.runs_of_noise,
+            "explained": assessment.ok, "left_N": assessment.left, "noise_N": assessment.noise,
+            "noise_is_of_air": assessment.air, "runs": assessment.runs, "runs_of_noise": assessment.runs_of_noise,
             "not_explained": [
                 {"way": place.kind, "insertion": place.insertion, "shallow_m": place.shallow, "deep_m": place.deep,
                  "force_N": place.force, "share": place.share}
-                for place in told.places
+                for place in assessment.places
             ],
             "causes": [{"kind": one.kind, "share": one.share, "text": one.text} for one in self.causes],
         }  # fmt: skip
@@ -47,30 +47,30 @@ class Doubts:
 
 def doubts(trace: Trace, segments: Segments, fit: Fit, extensions: Collection[str]) -> Doubts:
     """The doubts about the fit of all samples with these extensions of K06."""
-    told = explained(trace, segments, fit)
-    found = causes(trace, segments, fit, told)
+    assessment = explained(trace, segments, fit)
+    found = causes(trace, segments, fit, assessment)
     shaking = steady_noise(trace.depth)
-    if not told.ok and shaking * fit.parameters.get("coupling_stiffness") > told.noise:
+    if not assessment.ok and shaking * fit.parameters.get("coupling_stiffness") > assessment.noise:
         text = (
             f"The depth has a noise of {shaking * 1e6:.2g} um, which the spring between needle and tissue turns into "
             "force. To tell: smooth the depth, or take it from the robot's command"
         )
         found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
     if not any(one.kind in UNEQUAL for one in found):
-        found = (*_asymmetry(trace, segments, fit, told, extensions), *found)
-    return Doubts(told, found)
+        found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
+    return Doubts(assessment, found)
 
 
 def _asymmetry(
-    trace: Trace, segments: Segments, fit: Fit, told: Explained, extensions: Collection[str]
+    trace: Trace, segments: Segments, fit: Fit, assessment: Explained, extensions: Collection[str]
 ) -> tuple[Cause, ...]:
     """What the two ways themselves show: the model may have explained it by a wall or a tail that is not there."""
     ways = both_ways(trace, segments, fit)
     if ways is None or abs(ways.ratio - 1) < UNEVEN or (ways.ratio < 1 and WEAKER & set(extensions)):
         return ()
-    slow = fit.noise.slow_and_white()[0] if told.ok else 0.0
-    if abs(ways.difference) < SURE * max(slow, told.blocks.noise):
+    slow = fit.noise.slow_and_white()[0] if assessment.ok else 0.0
+    if abs(ways.difference) < SURE * max(slow, assessment.blocks.noise):
         return ()
     kind, text = way_out(ways.ratio)
-    hidden = ". The model explains it by other means: do not trust its walls" if told.ok else ""
+    hidden = ". The model explains it by other means: do not trust its walls" if assessment.ok else ""
     return (Cause(kind, 0.0, text + hidden),)

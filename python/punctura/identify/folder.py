@@ -163,10 +163,10 @@ def _one(path: str, task: Task) -> tuple[TraceRecord, bool]:
     """The result of one trace, in a process of its own, and whether the next run shall try it again."""
     try:
         trace = read_as(path, task.reading)
-        told = identify(trace, task.needle, task.membranes, rig=task.rig).as_dict()
+        record = identify(trace, task.needle, task.membranes, rig=task.rig).as_dict()
     except Exception as error:  # a defect in one trace does not stop the others
         return _failed(Path(path), task, explain(error, PATIENCE_S)), isinstance(error, ImportError)
-    return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **told}, False
+    return {"task": task.key(), "stamp": _stamp(Path(path)), "error": None, **record}, False
 
 
 def _failed(path: Path, task: Task, reason: str) -> FailedRecord:
@@ -184,27 +184,27 @@ def _stamp(path: Path) -> list[int]:
 def _known(result: Path, path: Path, task: Task) -> TraceRecord | None:
     """The earlier result of a trace, if neither its file nor the task has changed since."""
     try:
-        told = json.loads(result.read_bytes())
+        record = json.loads(result.read_bytes())
     except (OSError, ValueError, RecursionError):
         return None
     wanted = json.loads(json.dumps({"task": task.key(), "stamp": _stamp(path)}))  # JSON has no tuples
-    if not isinstance(told, dict) or wanted != {key: told.get(key) for key in wanted}:
+    if not isinstance(record, dict) or wanted != {key: record.get(key) for key in wanted}:
         return None
-    known: TraceRecord = told  # type: ignore[assignment]  # the same version of punctura wrote it
+    known: TraceRecord = record  # type: ignore[assignment]  # the same version of punctura wrote it
     return known
 
 
 def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
     rows: list[TraceRow] = [
-        {"trace": _shown(told["trace"]), "rmse_N": told["rmse_N"], "membranes": told["membranes"],
-         "extensions": ", ".join(told["extensions"]), **parameter}
-        for told in results if told["error"] is None for parameter in told["parameters"]
+        {"trace": _shown(record["trace"]), "rmse_N": record["rmse_N"], "membranes": record["membranes"],
+         "extensions": ", ".join(record["extensions"]), **parameter}
+        for record in results if record["error"] is None for parameter in record["parameters"]
     ]  # fmt: skip
     people = population(rows)
     for name, table in (("traces.parquet", rows), ("population.parquet", people)):
         with whole_file(out / name) as place:
             pa.parquet.write_table(pa.Table.from_pylist(table), place)
-    failed = {_shown(told["trace"]): told["error"] for told in results if told["error"] is not None}
+    failed = {_shown(record["trace"]): record["error"] for record in results if record["error"] is not None}
     return {"traces": len(results), "identified": len(results) - len(failed), "kept": kept, "failed": failed,
             "population": people}  # fmt: skip
 

@@ -113,12 +113,12 @@ def identify(
     trace: Trace,
     needle: Needle,
     membranes: int | Literal["auto"] = "auto",
-    tell: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], None] = lambda _: None,
     rig: Rig = UNKNOWN,
 ) -> Identification:
     """Identifies membranes of a trace that was made with this needle.
 
-    membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. tell: gets a word
+    membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. report: gets a word
     about each step. rig: what is known of its sensors. Raises TraceError for a trace with a severe finding, and if no
     fit succeeds; ConfigurationError for a rig that cannot be; ModuleNotFoundError.
     """
@@ -127,11 +127,11 @@ def identify(
     if severe:
         raise TraceError(f"{trace.source or 'the trace'}: {severe[0]}")
     with one_thread("punctura.identify"):
-        return _identified(trace, needle, membranes, tell, rig)
+        return _identified(trace, needle, membranes, report, rig)
 
 
 def _identified(
-    trace: Trace, needle: Needle, membranes: int | Literal["auto"], tell: Callable[[str], None], rig: Rig
+    trace: Trace, needle: Needle, membranes: int | Literal["auto"], report: Callable[[str], None], rig: Rig
 ) -> Identification:
     trace, noise = with_quiet_depth(trace, rig.depth_noise)
     known = [RigValue("depth_noise", noise, "m", rig.depth_noise is not None)] if noise else []
@@ -139,18 +139,18 @@ def _identified(
     few = thinned(trace)
     all_used = len(few) == len(trace)
     count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
-    choice = choose(few, segments if all_used else segment(few), needle, count, tell, most=most, rig=rig)
+    choice = choose(few, segments if all_used else segment(few), needle, count, report, most=most, rig=rig)
     found: tuple[Estimate, ...] | None = None
     better: list[tuple[Model, Parameters]] = []
     least, more = np.inf, False  # the squares of the last fit, N^2; whether there are better optima still
     while found is None:
         few_fit = final = choice.current.fit
         if not all_used or trace.depths is not None:
-            tell("all samples")
+            report("all samples")
             final = _with_all_samples(
                 trace, few_fit, [point for model, point in better if model == choice.current.model]
             )
-        tell("intervals")
+        report("intervals")
         others = (few_fit.parameters, *few_fit.others)
         holds = explained(trace, segments, final).ok  # otherwise no search makes the intervals hold
         try:
@@ -159,22 +159,22 @@ def _identified(
             if len(better) == BETTER_OPTIMA or not final.sse < least:
                 found, more = estimates(final, others, stops=False, outwards=holds), True
                 break
-            tell("a better optimum")
+            report("a better optimum")
             least = final.sse
             better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
     if rig.values():
-        tell("tolerances of the rig")
+        report("tolerances of the rig")
         found = with_tolerance(found, final, rig)
     known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
     late = {one.name: one for one in found if one.name in LATE}
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
     effective = effective_samples(final.residuals, len(final.u))
     doubt = doubts(trace, segments, final, choice.current.extensions)
-    said = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
-    said = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *said)
-    said = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *said, *([MORE_OPTIMA] if more else []))
-    return Identification(trace, segments, final, found, said, choice.candidates, effective, doubt, tuple(known))
+    advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
+    advice = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *advice)
+    advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice, *([MORE_OPTIMA] if more else []))
+    return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))
 
 
 def _with_all_samples(trace: Trace, few: Fit, better: Sequence[Parameters]) -> Fit:

@@ -23,42 +23,42 @@ _STYLE = (
 
 def report_html(found: Identification) -> bytes:
     """The report as one HTML file without references to others."""
-    told = found.as_dict()
+    record = found.as_dict()
     picture = base64.b64encode(picture_png(found)).decode()
     findings = "".join(f"<li>{escape(str(f))}</li>" for f in found.trace.findings) or "<li>nothing unusual</li>"
     doubts = "".join(f"<li>{escape(text)}</li>" for text in found.verdicts) or "<li>nothing: all is identifiable</li>"
     head = (
-        f"{told['membranes']} membrane(s), {', '.join(told['extensions']) or 'K06 without extensions'}; rms error "
-        f"{told['rmse_N']:.3g} N, {100 * told['rmse_share_of_peak']:.2g} % of the greatest force; "
-        f"{told['samples']} samples, as many as {told['effective_samples']:.0f} independent ones"
+        f"{record['membranes']} membrane(s), {', '.join(record['extensions']) or 'K06 without extensions'}; rms error "
+        f"{record['rmse_N']:.3g} N, {100 * record['rmse_share_of_peak']:.2g} % of the greatest force; "
+        f"{record['samples']} samples, as many as {record['effective_samples']:.0f} independent ones"
     )
     page = (
         f"<!doctype html><html lang=en><meta charset=utf-8><title>Identification</title><style>{_STYLE}</style>"
         f"<h1>Membranes of {escape(as_text(found.trace.source) or 'a trace')}</h1><p>{escape(head)}.</p>"
         f'<img alt="Force against depth, residuals, law of each membrane" src="data:image/png;base64,{picture}">'
-        f"<h2>Parameters, with 95 % intervals</h2>{_parameters(told)}"
+        f"<h2>Parameters, with 95 % intervals</h2>{_parameters(record)}"
         f"<h2>What the trace cannot tell, and which experiment would</h2><ul>{doubts}</ul>"
-        f"<h2>Found in the trace</h2><ul>{findings}</ul><h2>Models that were tried</h2>{_models(told)}"
+        f"<h2>Found in the trace</h2><ul>{findings}</ul><h2>Models that were tried</h2>{_models(record)}"
         f"<p>The intervals hold if the model is right. Residuals with a shape say that it is not.</p></html>"
     )
     return page.encode()
 
 
-def _parameters(told: IdentificationRecord) -> str:
+def _parameters(record: IdentificationRecord) -> str:
     rows = []
-    for p in told["parameters"]:
+    for p in record["parameters"]:
         low, high = ("?" if bound is None else f"{bound:.4g}" for bound in (p["low"], p["high"]))
         mark = "" if p["identifiable"] else " class=no"
-        said = "" if p["identifiable"] else "not identifiable"
+        note = "" if p["identifiable"] else "not identifiable"
         rows.append(
-            f"<tr{mark}><td>{escape(p['name'])}<td>{p['value']:.4g}<td>{low}<td>{high}<td>{p['unit']}<td>{said}"
+            f"<tr{mark}><td>{escape(p['name'])}<td>{p['value']:.4g}<td>{low}<td>{high}<td>{p['unit']}<td>{note}"
         )
     return f"<table><tr><th>parameter<th>value<th>low<th>high<th>unit<th>{''.join(rows)}</table>"
 
 
-def _models(told: IdentificationRecord) -> str:
+def _models(record: IdentificationRecord) -> str:
     rows = []
-    for m in told["models"]:
+    for m in record["models"]:
         held_out = "-" if m["held_out_rmse_N"] is None else f"{m['held_out_rmse_N']:.3g}"
         aicc = "-" if m["aicc"] is None else f"{m['aicc']:.0f}"
         name = " + ".join(m["extensions"]) or "K06"

@@ -47,7 +47,7 @@ class Search:
     trace: Trace
     segments: Segments
     needle: Needle
-    tell: Callable[[str], None]
+    report: Callable[[str], None]
     stated: Mapping[str, float] = field(default_factory=dict)  # lag and delay of the sensor, s
     rule: Rule = field(init=False)
     tried: list[Candidate] = field(default_factory=list)
@@ -57,7 +57,7 @@ class Search:
 
     def fitted(self, name: str, model: Model, from_these: Sequence[Start], hops: bool = False) -> Candidate | None:
         """The model's best fit from any of these, and with hops around its end; None if none ends."""
-        self.tell(name)
+        self.report(name)
         from_these = [replace(one, parameters=self._sensed(one.parameters, model)) for one in from_these]
         misfit = self.tried[0].fit.misfit if self.tried else self._misfit(from_these[0].parameters)
         enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts

@@ -96,8 +96,8 @@ def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Seg
 def _no_bounds(estimates: Sequence[Estimate]) -> Iterator[str]:
     """Without a model that is right, nothing says which experiment would tell a parameter."""
     if names := [estimate.name for estimate in estimates if not estimate.identifiable]:
-        told = ", ".join(names)
-        yield f"Not identifiable, as far as this model goes: {told}. A model that explains the trace comes first."
+        listed = ", ".join(names)
+        yield f"Not identifiable, as far as this model goes: {listed}. A model that explains the trace comes first."
 
 
 def _parts(trace: Trace, segments: Segments, walls: int) -> frozenset[str]:

@@ -10,22 +10,22 @@ from punctura.rivals.k06 import CHOSEN, PRINTED
 
 def better_rivals(found: Identification) -> tuple[TraceComparison, tuple[Row, ...]]:
     """All rivals on the trace of an identification, and those with a smaller BIC and a smaller error."""
-    told = compare_trace(found.trace, needle=found.parameters.needle, with_chatter=False, identified=found)
-    own = [row for row in told.rows if row.name in (PRINTED, CHOSEN)]
+    table = compare_trace(found.trace, needle=found.parameters.needle, with_chatter=False, identified=found)
+    own = [row for row in table.rows if row.name in (PRINTED, CHOSEN)]
     bic = min(row.bic for row in own)
     error = min(row.rmse for row in own)
-    better = [row for row in told.rows if row not in own and row.bic < bic - EVIDENCE and row.rmse < error]
-    return told, tuple(sorted(better, key=lambda row: row.bic))
+    better = [row for row in table.rows if row not in own and row.bic < bic - EVIDENCE and row.rmse < error]
+    return table, tuple(sorted(better, key=lambda row: row.bic))
 
 
 def in_words(found: Identification) -> str:
     """One sentence on the rivals, for a trace that the model does not explain."""
-    told, better = better_rivals(found)
-    rmse = min(row.rmse for row in told.rows if row.name in (PRINTED, CHOSEN))
+    table, better = better_rivals(found)
+    rmse = min(row.rmse for row in table.rows if row.name in (PRINTED, CHOSEN))
     own = f"K06 {rmse:.2g} N (punctura rivals)"
     if better:
         return f"Another model does better: {'; '.join(map(_leaves, better[:2]))}, and {own}."
-    rivals = [row for row in told.rows if row.name not in (PRINTED, CHOSEN)]
+    rivals = [row for row in table.rows if row.name not in (PRINTED, CHOSEN)]
     return f"No rival does better: {_leaves(min(rivals, key=lambda row: row.bic))}, and {own}."
 
 

@@ -110,8 +110,10 @@ def compare_trace(
                     contact = float(trace.depth[segments.contact or 0])
                     rises[PRINTED] = k06_on(first, needle, contact, False)
                     rises[CHOSEN] = k06_on(first, needle, contact, True)
-    told = {} if first is None else compared({name: one for name, one in rises.items() if one is not None}, first)
-    return _comparison(trace, segments, fits, told, with_chatter)
+    comparisons = (
+        {} if first is None else compared({name: one for name, one in rises.items() if one is not None}, first)
+    )
+    return _comparison(trace, segments, fits, comparisons, with_chatter)
 
 
 def _comparison(

@@ -170,10 +170,10 @@ class ExerciseActivity:
         if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
         if self._results is None:
-            said = " ".join(
+            verdict = " ".join(
                 [f"{result.title}: {result.verdict}.", *result.reasons, "The result of a draft is not kept."]
             )
-            return Outcome(self._status(running=False), remark=said)
+            return Outcome(self._status(running=False), remark=verdict)
         try:
             name = self._results.save(result).name
         except OSError as error:

@@ -65,10 +65,10 @@ class Line:
                 raise LabError(f"{MOST_WAITING} computations wait already; try again when they are done, or cancel one")
             self._asked.append(me)
         try:
-            told = 0
+            announced = 0
             while ahead := self._ahead(me):
-                yield NOTHING if ahead == told else waiting(f"waiting: {ahead} computation(s) before this one")
-                told = ahead
+                yield NOTHING if ahead == announced else waiting(f"waiting: {ahead} computation(s) before this one")
+                announced = ahead
             yield from compute()
         finally:
             with self._moved:

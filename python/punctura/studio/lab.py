@@ -135,8 +135,8 @@ def _zipped(job: Job, line: Line) -> Iterator[bytes]:
     with tempfile.TemporaryDirectory(prefix="punctura-") as folder:
         path = Path(folder) / "comparison.zip"
         last = b"{}"
-        for told in _lines(job.model_copy(update={"zip": str(path)}), line):
-            last = told if told.strip() else last
+        for answer in _lines(job.model_copy(update={"zip": str(path)}), line):
+            last = answer if answer.strip() else last
             yield b""
         if error := json.loads(last).get("error"):
             raise LabError(error)

@@ -41,7 +41,7 @@ def one_start(monkeypatch):
 def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_start, monkeypatch):
     trace, needle = rise(seed)
     told = []
-    found = identify(trace, needle, 1, tell=told.append)
+    found = identify(trace, needle, 1, report=told.append)
     assert STEP in told
     monkeypatch.undo()
     best = identify(trace, needle, 1)
@@ -52,7 +52,7 @@ def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_star
 def test_the_report_says_where_there_may_be_still_better_optima(one_start, monkeypatch):
     monkeypatch.setattr(sys.modules["punctura.identify.identify"], "BETTER_OPTIMA", 0)
     told = []
-    found = identify(*rise(19), 1, tell=told.append)
+    found = identify(*rise(19), 1, report=told.append)
     assert told.count(STEP) == 0
     assert any("better than the fit" in verdict for verdict in found.verdicts)
 

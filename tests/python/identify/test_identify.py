@@ -321,7 +321,7 @@ def test_linear_algebra_uses_one_thread_meanwhile_and_as_many_as_before_afterwar
 
     with threadpoolctl.threadpool_limits(2, "blas"):
         meanwhile, before = [], threads()
-        identify(trace(noise=0.01), NEEDLE, membranes=1, tell=lambda _: meanwhile.extend(threads()))
+        identify(trace(noise=0.01), NEEDLE, membranes=1, report=lambda _: meanwhile.extend(threads()))
         assert set(before) == {2} and set(meanwhile) == {1} and threads() == before
         first, second = one_thread("punctura.identify"), one_thread("punctura.identify")  # of two threads at once
         first.__enter__()
