@@ -135,7 +135,7 @@ compile() {
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
-  local logs=build/log/side-by-side-$1 a_failed=0 b_failed=0 a b
+  local logs=build/log/side-by-side-${1##*/} a_failed=0 b_failed=0 a b
   "$1" >"$logs-a.log" 2>&1 & a=$!
   "$2" >"$logs-b.log" 2>&1 & b=$!
   trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # background jobs of a script do not get Ctrl-C
