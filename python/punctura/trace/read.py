@@ -18,6 +18,7 @@ from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
 from punctura.trace.motion import Speeds, about_speed, depth_from, with_depth_of
 from punctura.trace.reading import Order, Reading
+from punctura.trace.samples import no_reading
 from punctura.trace.size import check_file, check_size
 from punctura.trace.table import Table
 from punctura.trace.tables import read_table
@@ -127,6 +128,14 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     table = table if named else _as_recorded(table)
     held, found = choose_columns(table, named, reading.units, source, reading.needed)
     found[:0] = table.findings
+    for role in ("depth", "force"):
+        empty = no_reading(held.get(role, np.empty(0)))
+        if empty.any():
+            values = " and ".join(f"{value:.6g}" for value in np.unique(held[role][empty]))
+            text = f"{int(empty.sum())} rows hold {values} {'N' if role == 'force' else 'm'} for the {role}"
+            text += ", far outside all other values"
+            found.append(Finding("no_reading", f"{text}: this is taken for no reading", True))
+            held[role] = np.where(empty, np.nan, held[role])
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
         count = int((~good).sum())

@@ -1,14 +1,36 @@
-"""Names what is wrong with the samples themselves: no motion, no force, gaps, spikes, a force that is cut off."""
+"""What is wrong with the samples themselves: no reading, no motion, no force, gaps, spikes, a force that is cut off."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
+
+Array = NDArray[Any]
+
+
+FAR = 20.0  # times the range of all other values: no tissue and no motion makes such a value
+
+
+def no_reading(values: Array) -> Array:
+    """Where a column (n,) holds a number that means "no reading", such as -9999: far outside all others; (n,) bool."""
+    found = np.zeros(len(values), bool)
+    for _ in range(2):  # perhaps one such number on each side
+        for far in (np.nanmax, np.nanmin):
+            rest = values[np.isfinite(values) & ~found]
+            others = rest[rest != far(rest)] if len(rest) else rest
+            if len(others) < max(20, 0.9 * len(values)):
+                continue
+            distance = float(np.min(np.abs(others - far(rest))))
+            if distance > FAR * float(np.ptp(others)) > 0:
+                found |= values == far(rest)
+    return found
 
 
 def nothing_seen(trace: Trace) -> tuple[Finding, ...]:

@@ -132,6 +132,17 @@ CHANGES = {
 }
 
 
+def test_a_number_for_no_reading_is_left_out_and_named(tmp_path):
+    made = trace(hold=0.4)
+    force, depth = made.force.copy(), made.depth * 1e3
+    force[100:102], force[200], depth[50] = -9999, 1e30, 9999
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, force_N=force, depth_mm=depth)))
+    assert kinds(read) == {"no_reading", "rows_without_numbers"}
+    assert len(read) == len(made) - 4 and np.ptp(read.force) == np.ptp(made.force)
+    named = [one.text for one in read.findings if one.kind == "no_reading"]
+    assert ["9.999 m" in one for one in named] == [True, False] and "3 rows hold -9999 and 1e+30 N" in named[1]
+
+
 @pytest.mark.parametrize("kind", CHANGES)
 def test_each_defect_is_named_and_no_other(tmp_path, kind):
     made = trace(hold=0.4)
