@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.table import Table
 from punctura.trace.units import split_name
 
 Array = NDArray[np.float64]
@@ -19,6 +20,8 @@ _CLOCK = re.compile(
     r"(?::(\d{2}(?:[.,:]\d+)?))?\s*([AaPp])?\.?[Mm]?\.?\s*(?:Z|UTC|[+-]\d{2}:?\d{2})?\s*"
 )
 _MINUTES = re.compile(r"\s*(\d{1,3}):(\d{2}[.,]\d+)\s*")  # as a spreadsheet shows it
+_NANOSECONDS = re.compile(r"(.*)(?:nano|n)sec(s?|onds)")  # ROS 2 and 1
+_STAMP = "time [s]"
 _DAY = 86400.0
 
 
@@ -47,6 +50,19 @@ def is_stamp(time: Array) -> bool:
     """Whether a column holds nanoseconds since 1970, as ROS writes them: no other time has such numbers."""
     known = time[np.isfinite(time)]
     return len(known) > 0 and bool((known > 9e17).all() and (known < 5e18).all())
+
+
+def join_stamp(table: Table) -> None:
+    """Joins the whole seconds and the nanoseconds of a stamp of ROS, two columns, to a time in s from the first on."""
+    for name in table:
+        if (
+            (found := _NANOSECONDS.fullmatch(name))
+            and (whole := f"{found[1]}sec{found[2]}") in table
+            and _STAMP not in table
+        ):
+            seconds, rest = table.pop(whole), table.pop(name)
+            table[_STAMP] = seconds - np.nanmin(seconds) + 1e-9 * rest
+            return
 
 
 def _seconds(cell: Any) -> float | None:

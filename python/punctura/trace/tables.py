@@ -10,6 +10,7 @@ import pyarrow.parquet
 
 from punctura.extras import optional
 from punctura.trace.bags import is_bag, read_bag
+from punctura.trace.clock import join_stamp
 from punctura.trace.hdf5 import read_hdf5
 from punctura.trace.packed import check_mat, holds_workbook
 from punctura.trace.reading import Reading
@@ -46,6 +47,7 @@ def read_table(path: Path, reading: Reading) -> Table:
     if not table or not len(next(iter(table.values()))):
         raise TraceError(f"{path}: holds no rows of numbers")
     check_names(path, table)
+    join_stamp(table)
     return table
 
 

@@ -108,6 +108,14 @@ def test_the_time_of_rostopic_is_in_nanoseconds_also_a_simulated_one(tmp_path):
     check(read_trace(tmp_path / "a.csv", {"depth": "field.depth"}, {"depth": "mm", "force": "N"}))
 
 
+@pytest.mark.parametrize("names", ["header.stamp.sec,header.stamp.nanosec", "stamp.secs,stamp.nsecs"])
+def test_a_stamp_of_seconds_and_nanoseconds_is_one_time(tmp_path, names):
+    stamps = [divmod(round(1e9 * t) + 1_700_000_000_000_000_000, 10**9) for t, _, _ in ROWS]
+    rows = [f"{whole},{rest},{f!r},{d!r}" for (whole, rest), (_, d, f) in zip(stamps, ROWS, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join([f"{names},force_N,depth_mm", *rows]))
+    check(read_trace(tmp_path / "a.csv"))
+
+
 def test_a_stated_speed_gives_the_depth_and_a_turn_is_noticed(tmp_path):
     stops, turns = (float(MADE.time[i]) for i in np.flatnonzero(MADE.depth == MADE.depth.max())[[0, -1]])
     speed = float(MADE.depth.max() / stops)
