@@ -95,7 +95,8 @@ class Gate(asyncio.Protocol):
         if self.refused or self.transport.is_closing():
             return
         allowed = self._frames.allowed(data, self._bucket.take) if self._frames else len(data)
-        self._feed(data[:allowed])
+        if allowed:  # a server may take no bytes for the end of the stream
+            self._feed(data[:allowed])
         if allowed < len(data) and not self.transport.is_closing():
             self.refused = True
             self.transport.write(TOO_MANY)
