@@ -30,8 +30,20 @@ install(EXPORT punctura NAMESPACE punctura:: FILE punctura-targets.cmake DESTINA
 
 configure_package_config_file(cmake/punctura-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake
   INSTALL_DESTINATION ${punctura_config_dir})
-write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
-  COMPATIBILITY SameMinorVersion ${architecture})
+# One minor version is one interface. Who states a range, as 0.1...<1, has chosen.
+foreach(rule SameMinorVersion AnyNewerVersion)
+  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/punctura-${rule}.cmake COMPATIBILITY ${rule}
+    ${architecture})
+endforeach()
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake "\
+if(PACKAGE_FIND_VERSION_RANGE)
+  include(\${CMAKE_CURRENT_LIST_DIR}/punctura-AnyNewerVersion.cmake)
+else()
+  include(\${CMAKE_CURRENT_LIST_DIR}/punctura-SameMinorVersion.cmake)
+endif()
+")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/punctura-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/punctura-config-version.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/punctura-SameMinorVersion.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/punctura-AnyNewerVersion.cmake
   DESTINATION ${punctura_config_dir})
