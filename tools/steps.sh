@@ -27,8 +27,6 @@ choose_steps() {
 
 # Each of these steps uses about one processor, so all of them start at once.
 at_once="tree format types web"
-# These wait a lot: for a hand, a picture, a server. They go one after another, beside the steps that compute.
-beside="docs page"
 
 # Groups of processes that run in the background; they end with this program, however it ends.
 groups=""
@@ -38,22 +36,22 @@ end_groups() {
 }
 
 run_steps() {
-  local name passed=0 failed="" count=0 began=$SECONDS log code seconds group started="" later=""
+  local name passed=0 failed="" count=0 began=$SECONDS log code seconds group started=""
   cd "$root"
   trap end_groups EXIT
   trap 'printf "\nStopped.\n" >&8; exit 130' INT TERM HUP
+  set -m  # each in a process group of its own, because a background job does not get Ctrl-C
   for name in $steps; do
-    case " $at_once " in *" $name "*) start "$name" ;; esac
-    case " $beside " in *" $name "*) later="$later $name" ;; esac
+    case " $at_once " in *" $name "*) run_step "$name" & groups="$groups $!" started="$started $name:$!" ;; esac
   done
+  set +m
   for name in $steps; do
     log=build/log/test-$name.log
-    case " $at_once " in *" $name "*) ;; *) start $later; later="" ;; esac  # page needs the modules that web installs
     printf '  %-12s ' "$name"
     case " $started" in
       *" $name:"*)
         group=${started##* $name:} group=${group%% *}
-        wait "$group" 2>/dev/null || true
+        wait "$group" || true
         groups=${groups/ $group/}  # its number may soon be another group's
         ;;
       *) run_step "$name" || true ;;
@@ -72,21 +70,6 @@ run_steps() {
   [ -z "$failed" ] || printf '\nFailed:%s. To repeat only these: ./test%s\n' "$failed" "$failed"
   printf '\nIn %d s, steps:\n%d passed, %d failed\n' $((SECONDS - began)) $passed $count
   [ -z "$failed" ]
-}
-
-# start [NAME...]: runs these steps one after another in the background, in a process group of their own, because a
-# background job does not get Ctrl-C.
-start() {
-  [ $# -gt 0 ] || return 0
-  local name
-  for name; do  # nothing of an earlier run
-    rm -f "build/log/test-$name.log.result" && : >"build/log/test-$name.log"
-  done
-  set -m
-  for name; do run_step "$name" || true; done &
-  set +m
-  groups="$groups $!"
-  for name; do started="$started $name:$!"; done
 }
 
 # run_step NAME: runs the step with its output in its log, and writes its exit status and time (s) beside it.
@@ -135,7 +118,7 @@ compile() {
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
-  local logs=build/log/side-by-side-${1##*/} a_failed=0 b_failed=0 a b
+  local logs=build/log/side-by-side a_failed=0 b_failed=0 a b
   "$1" >"$logs-a.log" 2>&1 & a=$!
   "$2" >"$logs-b.log" 2>&1 & b=$!
   trap 'kill $a $b 2>/dev/null; exit 130' INT TERM HUP  # background jobs of a script do not get Ctrl-C

@@ -60,24 +60,6 @@ def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tm
     assert "    said\n" in said and "2 passed in 1.0s" in said and said.endswith("2 passed, 1 failed\n")
 
 
-def test_docs_and_page_go_one_after_another_beside_the_steps_that_compute(tmp_path):
-    until = "until [ -e {} ]; do sleep 0.02; done"
-    steps = f"step_cpp() {{ touch compiling; {until.format('drawn')}; }}"  # else neither ends
-    steps += (
-        f"; step_docs() {{ {until.format('compiling')}; touch read; }}; step_page() {{ [ -e read ] && touch drawn; }}"
-    )
-    with start(tmp_path, steps, "cpp", "docs", "page") as run:
-        said = run.communicate(timeout=PATIENCE_S)[0]
-    assert run.returncode == 0, said
-    assert re.findall(r"^  (\w+) +passed", said, re.M) == ["cpp", "docs", "page"]
-
-
-def test_a_killed_step_is_not_taken_for_the_one_of_the_run_before(tmp_path):
-    with start(tmp_path, "step_docs() { kill -KILL 0; }; step_page() { true; }", "docs", "page") as run:
-        said = run.communicate(timeout=PATIENCE_S)[0]
-    assert run.returncode == 1 and "0 passed, 2 failed" in said
-
-
 def test_a_step_that_was_killed_has_failed(tmp_path):
     with start(tmp_path, "step_web() { kill -KILL 0; }", "web") as run:
         said = run.communicate(timeout=PATIENCE_S)[0]
