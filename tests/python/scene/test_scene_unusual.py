@@ -75,7 +75,7 @@ def test_the_command_line_tells_it_as_a_sentence(tmp_path, sound_text):
     command = [
         sys.executable,
         "-m",
-        "punctura.cli",
+        "punctura",
         "simulate",
         path,
         "--motion",
