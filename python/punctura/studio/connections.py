@@ -30,7 +30,6 @@ try:
 except ImportError:  # Windows has no such limit
     resource = None  # type: ignore[assignment]
 
-PING = b"\x89\0"  # a frame, RFC 6455
 TOO_LATE = (
     b"HTTP/1.1 408 Request Timeout\r\nContent-Type: text/plain; charset=utf-8\r\nConnection: close\r\n\r\n"
     b"The studio ends a connection that does not show the token of this run in time.\n"
@@ -48,8 +47,6 @@ class Connection:
     served: int = 0  # requests that are being answered; a WebSocket is one, from its handshake to its close
     since: float = field(init=False)  # accepted, or the last request was answered
     unread_since: float | None = None  # MOST_BUFFERED was reached
-    pinged_since: float | None = None  # a ping is not answered yet
-    answered: asyncio.Event = field(default_factory=asyncio.Event)  # when no ping waits for its answer
     closing_since: float | None = None
     peer: tuple[str, int] = field(init=False)  # address and port of the other end
 
@@ -57,7 +54,6 @@ class Connection:
         self.since = self.clock()
         self.peer = self.transport.get_extra_info("peername")
         self.transport.set_write_buffer_limits(high=MOST_BUFFERED)
-        self.answered.set()
 
     @contextmanager
     def serving(self) -> Iterator[None]:
@@ -73,28 +69,13 @@ class Connection:
         """The transport's buffer has become full, or has space again."""
         self.unread_since = None if possible else self.clock()
 
-    async def ping(self) -> None:
-        """Pings a WebSocket after the last ping was answered: its other end has read all that was sent before that.
-
-        The kernels of both ends hold megabytes: without this, a slow page would show what was 20 s ago.
-        """
-        await self.answered.wait()
-        self.answered.clear()
-        self.pinged_since = self.clock()
-        self.transport.write(PING)
-
-    def pong(self) -> None:
-        """The other end has answered."""
-        self.pinged_since = None
-        self.answered.set()
-
     def overdue(self, now: float) -> bool:
         if self.transport.is_closing() or (self.socket and not self.served):
             self.closing_since = now if self.closing_since is None else self.closing_since
             # The end of a download may still be on its way.
             patience = UNREAD_S if self.known and not self.socket else CLOSE_S
             return now - self.closing_since >= patience
-        if any(since is not None and now - since >= UNREAD_S for since in (self.unread_since, self.pinged_since)):
+        if self.unread_since is not None and now - self.unread_since >= UNREAD_S:
             return True
         if not self.known:
             return now - self.since >= STRANGER_S

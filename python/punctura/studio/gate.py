@@ -23,8 +23,7 @@ PAGE_CLOSES = bytes([_CLOSE, _MASK | len(_REASON), 0, 0, 0, 0]) + _REASON  # fro
 class Frames:
     """Finds the frames of a WebSocket in the bytes that come from a client."""
 
-    def __init__(self, on_pong: Callable[[], None]) -> None:
-        self._on_pong = on_pong
+    def __init__(self) -> None:
         self._header = b""  # as far as it has come
         self._left = 0  # bytes of the frame after its header, mask included
 
@@ -39,8 +38,6 @@ class Frames:
                 continue
             if not self._header and not take():
                 break
-            if not self._header and data[at] == PONG[0]:
-                self._on_pong()
             self._header += data[at : at + 1]
             at += 1
             self._left = self._after_header()
@@ -115,7 +112,7 @@ class Gate(asyncio.Protocol):
         """From here on the connection is a WebSocket, and this is its protocol."""
         self.server = cast(asyncio.Protocol, server)
         self.connection.socket = True
-        self._frames = Frames(self.connection.pong)
+        self._frames = Frames()
 
 
 class ServerTransport:

@@ -24,7 +24,6 @@ REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 # Counts.
 MOST_VIEWERS = 32  # pages
 MOST_FRAMES = 60  # of ticks that wait for one page, a second of them; then all are dropped, which leaves one gap
-FRAMES_A_PING = 8  # frames of ticks between two pings; a second ping waits for the answer to the first
 MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed
 MOST_KNOWN = 128  # connections with the token: each page has one socket and at most six others
 MOST_STRANGERS = 64  # connections without the token: if there are more, the oldest is closed
@@ -39,7 +38,7 @@ STRANGER_S = 10.0  # for a whole request with the token to arrive; then the conn
 IDLE_S = 15.0  # between two requests of a connection that has shown the token
 CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it
 FILE_S = 60.0  # for a whole file of a measured trace to arrive
-UNREAD_S = 30.0  # for the other end to continue reading, when MOST_BUFFERED is reached, or to answer a ping
+UNREAD_S = 30.0  # for the other end to continue reading, when MOST_BUFFERED is reached
 SWEEP_S = 0.5  # between two checks of all connections
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import itertools
 import json
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -15,10 +14,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from punctura.defects import explain
 from punctura.studio.commands import prepare, refusal
-from punctura.studio.connections import Connection
 from punctura.studio.hub import Hub, Viewer
-from punctura.studio.limits import FRAMES_A_PING, MOST_TEXT
-from punctura.studio.security import CONNECTION
+from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
@@ -49,7 +46,7 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
     if viewer is None:
         await socket.close(FULL, "Too many pages are open.")
         return
-    sender = asyncio.create_task(_send(socket, viewer, socket.scope[CONNECTION]))
+    sender = asyncio.create_task(_send(socket, viewer))
     orders: Orders = asyncio.Queue(MOST_ORDERS)
     reader = asyncio.create_task(_read(socket, viewer, hub, session, orders))
     worker = asyncio.create_task(_obey(viewer, hub, session, orders))
@@ -74,16 +71,13 @@ def _reason(reader: asyncio.Task[None]) -> str:
     return str(error) if isinstance(error, Closed) else ""
 
 
-async def _send(socket: WebSocket, viewer: Viewer, connection: Connection) -> None:
-    frames = itertools.count(1)
+async def _send(socket: WebSocket, viewer: Viewer) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while (data := await viewer.take()) is not None:
             if isinstance(data, str):
                 await socket.send_text(data)
             else:
                 await socket.send_bytes(data)
-                if next(frames) % FRAMES_A_PING == 0:
-                    await connection.ping()
 
 
 async def _read(socket: WebSocket, viewer: Viewer, hub: Hub, session: Session, orders: Orders) -> None:

@@ -32,7 +32,6 @@ FREE = ("/assets/", "/figures/")  # public folders
 TOKEN_PART = "token="  # of the path of an asset: /assets/token=TOKEN/page.js
 FREE_FILES = ("/", "/icon.svg", "/favicon.ico")  # a reload of the page has no token in its address
 WITH_TOKEN = "punctura.with_token"  # in the scope: whether the request has the token
-CONNECTION = "punctura.connection"  # in the scope: the Connection of the request
 FILES = ("/api/lab/file", "/api/lab/identify")  # a POST may have a file of MOST_TRACE as its body
 NO_TOKEN = "This needs the token of this run: open the address that the studio printed."
 
@@ -91,7 +90,6 @@ class Guard:
         if connection is None:
             await _refuse(scope, send, Refused(403, "The studio serves this computer only."))
             return
-        scope[CONNECTION] = connection
         with connection.serving():
             try:
                 self._check(scope, Headers(scope=scope), connection)

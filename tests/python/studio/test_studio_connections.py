@@ -1,13 +1,12 @@
 """The rules for the number of connections and for closing them, with a simulated clock."""
 
-import asyncio
 import re
 from pathlib import Path
 
 import pytest
 from punctura.studio import connections as rules
 from punctura.studio import limits
-from punctura.studio.connections import PING, Connections, open_file_limit, room
+from punctura.studio.connections import Connections, open_file_limit, room
 from punctura.studio.gate import Frames
 from punctura.studio.limits import CLOSE_S, FILES_KEPT, FILES_WANTED, IDLE_S, STRANGER_S, UNREAD_S
 
@@ -155,20 +154,6 @@ def test_who_does_not_read_is_ended_and_who_reads_slowly_is_not(clock, connectio
     assert silent.transport.aborted and not slow.transport.aborted
 
 
-def test_who_answers_no_ping_is_ended(clock, connections):
-    connection = connections.add(Transport())
-    connections.admit(connection)
-    with connection.serving():
-        for answers in (True, False):
-            asyncio.run(connection.ping())
-            assert connection.transport.written.endswith(PING)
-            after(UNREAD_S / 2, clock, connections)
-            if answers:
-                connection.pong()
-            after(UNREAD_S / 2, clock, connections)
-            assert connection.transport.aborted is not answers
-
-
 @pytest.mark.parametrize("limit", [256, 512, 1024, 1e6, float("inf")])
 def test_connections_leave_files_for_recordings(limit):
     strangers, known = room(limit)
@@ -223,7 +208,7 @@ def test_frames_are_found_in_any_pieces_of_the_stream(piece, masked):
     parts = [frame(b"\x82" * size, masked) for size in (0, 1, 125, 126, 0xFFFF, 0x10000, 0)]
     data, ends = b"".join(parts), [sum(map(len, parts[:n])) for n in range(len(parts))]
     for most in range(len(parts)):
-        left, found, read = iter([True] * most + [False]), Frames(list), 0
+        left, found, read = iter([True] * most + [False]), Frames(), 0
         for at in range(0, len(data), piece):
             part = data[at : at + piece]
             allowed = found.allowed(part, lambda left=left: next(left))
