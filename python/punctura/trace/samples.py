@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
+from punctura.trace.steps import equal_runs
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -22,14 +23,14 @@ def no_reading(values: Array) -> Array:
     """Where a column (n,) holds a number that means "no reading", such as -9999: far outside all others; (n,) bool."""
     found = np.zeros(len(values), bool)
     for _ in range(2):  # perhaps one such number on each side
-        for far in (np.nanmax, np.nanmin):
+        for far in (np.max, np.min):
             rest = values[np.isfinite(values) & ~found]
-            others = rest[rest != far(rest)] if len(rest) else rest
+            end = far(rest) if len(rest) else np.nan
+            others = rest[rest != end]
             if len(others) < max(20, 0.9 * len(values)):
                 continue
-            distance = float(np.min(np.abs(others - far(rest))))
-            if distance > FAR * float(np.ptp(others)) > 0:
-                found |= values == far(rest)
+            if float(np.min(np.abs(others - end))) > FAR * float(np.ptp(others)) > 0:
+                found |= values == end
     return found
 
 
@@ -72,9 +73,10 @@ def cut_off(trace: Trace) -> Iterator[Finding]:
     The other values are compared, too: a sensor of coarse steps or a slow one repeats all of its values.
     """
     force = trace.force
-    starts = np.flatnonzero(np.concatenate(([True], np.diff(force) != 0)))
-    lengths, values = np.diff(np.append(starts, len(force))), force[starts]
-    zero, height = baseline(force), float(np.max(np.abs(force - baseline(force))))
+    runs = equal_runs(force)
+    starts, lengths = runs[:-1], np.diff(runs)
+    values, zero = force[starts], baseline(force)
+    height = float(np.max(np.abs(force - zero)))
     ends = [end for end in (float(force.max()), float(force.min())) if abs(end - zero) > 0.1 * height]
     usual = int(lengths[~np.isin(values, ends)].max(initial=1))
     for end in ends:
