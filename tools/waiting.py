@@ -10,6 +10,7 @@ T = TypeVar("T")
 
 PATIENCE_S = 240.0  # long enough for a busy computer, where a program takes a minute to start
 POLL_S = 1e-3
+LATE_ALLOWED = {"stale": 30.0, "deadline": 30.0}  # s, of a gate: a tick that a busy computer delays is no fault
 
 
 def wait_until(condition: Callable[[], T], seconds: float = PATIENCE_S, poll: float = POLL_S) -> T:

@@ -15,7 +15,7 @@ from punctura.cli._headless import in_words
 from punctura.cli._status_line import status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 from punctura.simulation import Experiment, Strokes
-from waiting import PATIENCE_S, wait_until
+from waiting import LATE_ALLOWED, PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("k06-fig10")
 STROKES = Strokes([0, 5e-3, 0], [0, -10e-3, 0], count=1, duration=1.0, variation=0.0)
@@ -91,7 +91,7 @@ def test_a_fault_ends_the_run_and_says_what_to_do():
 
 
 def test_an_encoder_that_fails_once_is_a_fault_that_stays_until_a_reset():
-    loop = ServoLoop(SimulatedDevice(STROKES, ticks=0), SCENE, GateLimits(stale=30, deadline=30))
+    loop = ServoLoop(SimulatedDevice(STROKES, ticks=0), SCENE, GateLimits(**LATE_ALLOWED))
     loop.arm()
     loop.start()
     loop.device.trip()

@@ -31,10 +31,10 @@ from punctura.simulation import Target
 from punctura.studio.loaded import from_name
 from punctura.studio.pump import Pump
 from punctura.studio.run import NO_SYRINGE, Bench, Run, Settings
-from waiting import PATIENCE_S, wait_until
+from waiting import LATE_ALLOWED, PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("epidural")
-PATIENT = GateLimits(stale=30.0, deadline=30.0)  # a busy computer is no fault here
+PATIENT = GateLimits(**LATE_ALLOWED)
 ABOVE, DEEP = (0.0, 6e-3, 0.0), (0.0, -30e-3, 0.0)
 
 
@@ -232,8 +232,8 @@ def test_the_studio_opens_the_second_device_for_each_run():
 def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     thumb, told = Library("the thumb's", (0.0, 0.0, 0.0)), []
     monkeypatch.setattr("punctura.live.second.open_for", lambda *_: thumb.device)
-    loaded, patient = from_name("epidural"), RunLimits(ForceLimits(), {"stale": 30.0, "deadline": 30.0})
-    bench = Bench(Settings("simulated", limits=patient, second=SecondDevice("mine")), loaded.scene)
+    loaded = from_name("epidural")
+    bench = Bench(Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED), second=SecondDevice("mine")), loaded.scene)
     run = Run(0, bench, loaded)
     pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, send=told.append))
     run.start()

@@ -8,7 +8,7 @@ from punctura.record import Recorder, open_recording, replay
 from punctura.simulation import Target
 from punctura.syringe import Outlet, Syringe, SyringeSettings
 from recorded import run_to_end
-from waiting import wait_until
+from waiting import LATE_ALLOWED, wait_until
 
 SYRINGE = SyringeSettings(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), Coupling(1500, 1))
 
@@ -115,7 +115,7 @@ def test_one_device_cannot_be_both_hands():
 
 
 def test_a_thumb_device_moves_the_plunger():
-    patient = GateLimits(stale=30, deadline=30)  # on a busy computer a tick comes late
+    patient = GateLimits(**LATE_ALLOWED)
     needle, hand = SimulatedDevice(Target([0, 5e-3, 0])), SimulatedDevice(Target([0, 0, 0]))
     thumb = ThumbLoop(hand, gate=patient)
     loop = ServoLoop(needle, with_syringe(), patient, thumb=thumb)
