@@ -10,6 +10,7 @@ from gymnasium.spaces import Box, Space
 
 from punctura import load_scene
 from punctura._core import Fault, Fleet, Hand, Plant
+from punctura.gym.picture import Picture
 from punctura.gym.population import Population
 from punctura.gym.tasks import Task
 from punctura.results import FleetStep
@@ -80,17 +81,21 @@ class Trials:
         self.fleet = Fleet(task.axis, plant or Plant(), hand or Hand(), threads, few)
         self.rate = self.population.scene.servo.rate
         self.ticks = max(1, round(task.decision * self.rate))
+        self.pictures: dict[int, Picture] = {}  # by trial, if the environment draws
         self._begin, self._end = np.zeros(n), np.zeros(n)
         self._time, self._rest = np.zeros(n), np.zeros(n)
 
-    def start(self, i: int, random: np.random.Generator) -> None:
-        """Starts trial i anew, with a scene, a distance to the skin and a tremor that `random` draws."""
+    def start(self, i: int, random: np.random.Generator, draws: bool = False) -> None:
+        """Starts trial i anew, with a scene, a distance to the skin and a tremor that `random` draws. draws: with a
+        picture."""
         scene = self.population.draw(random)
         distance = random.uniform(*self.task.distance)
         start = -distance * np.array(self.task.axis)
         self.fleet.place(i, scene, start, int(random.integers(2**63)))
         self._begin[i], self._end[i] = self.task.space(scene)
         self._time[i] = self._rest[i] = 0
+        if draws:
+            self.pictures[i] = Picture(scene, start, np.array(self.task.axis))
 
     def first(self) -> Observations:
         """(n, 5) The observation before the first step: nothing is felt, nothing has moved."""
@@ -115,6 +120,8 @@ class Trials:
             raise ValueError(f"action {i} is {given[i]}: an action must be a finite number. No trial made a tick")
         share = np.clip(given, -1, 1)
         step = self.fleet.step(share * task.fastest, self.ticks)
+        for i, picture in self.pictures.items():
+            picture.add(step["travel"][i], step["lowest_force"][i], step["highest_force"][i])
         period = self.ticks / self.rate
         self._time += period
         depth, deepest = step["depth"], step["deepest"]

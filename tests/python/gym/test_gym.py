@@ -34,7 +34,7 @@ def advance(env: pg.NeedleEnv, share: float, seconds: float) -> list[tuple]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gymnasiums_own_checker_passes(name):
-    check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
+    check_env(gymnasium.make(name, render_mode="rgb_array").unwrapped)
 
 
 @pytest.mark.parametrize("threads", [1, 3])
@@ -70,6 +70,83 @@ def test_a_trial_of_a_vector_that_has_ended_begins_anew_in_the_next_step():
     assert not (reward.any() or ended.any() or late.any() or info["pierced"].any())
     seen, *_ = env.step(np.ones((2, 1), np.float32))
     assert abs(seen[0, 3]) < 1 < 5 < way  # mm: it has only just begun
+
+
+MASK = np.array([True, False, False])
+
+
+def test_a_mask_resets_the_trials_that_it_names_and_the_others_go_on():
+    ours = pg.NeedleVectorEnv("StopAfterPop", 3)
+    theirs = gymnasium.make_vec("punctura/StopAfterPop-v0", num_envs=3, vectorization_mode="sync")
+    action = np.full((3, 1), 0.5, np.float32)
+    with pytest.raises(RuntimeError, match="have not begun"):
+        ours.reset(options={"reset_mask": MASK})
+    for env in (ours, theirs):
+        env.reset(seed=3)
+        for _ in range(20):
+            env.step(action)
+    (seen, _), (also, _) = (env.reset(seed=[9, None, None], options={"reset_mask": MASK}) for env in (ours, theirs))
+    assert not seen[0].any() and seen[1:, 3].all()
+    np.testing.assert_array_equal(seen, also)
+    for _ in range(20):
+        np.testing.assert_array_equal(ours.step(action)[0], theirs.step(action)[0])
+    for wrong, error in (([True, False, False], TypeError), (MASK[:2], ValueError), (~MASK & MASK, ValueError)):
+        with pytest.raises(error, match="reset_mask"):
+            ours.reset(options={"reset_mask": wrong})
+
+
+def test_with_same_step_a_trial_begins_anew_at_once_as_in_gymnasiums_own_vector():
+    mode = gymnasium.vector.AutoresetMode.SAME_STEP
+    ours = gymnasium.make_vec("punctura/StopAfterPop-v0", num_envs=3, autoreset_mode="SameStep")
+    theirs = gymnasium.make_vec(
+        "punctura/StopAfterPop-v0", num_envs=3, vectorization_mode="sync", vector_kwargs={"autoreset_mode": mode}
+    )
+    assert ours.metadata["autoreset_mode"] == mode
+    ends = 0
+    action = np.array([[1], [0.7], [0]], np.float32)
+    for env in (ours, theirs):
+        env.reset(seed=1)
+    for _ in range(120):
+        (seen, *rest, info), (also_seen, *also_rest, also) = ours.step(action), theirs.step(action)
+        np.testing.assert_array_equal(seen, also_seen)
+        np.testing.assert_equal(rest, also_rest)
+        assert info.keys() >= also.keys()
+        for word in also:
+            np.testing.assert_equal(*(list(each[word]) if word == "final_obs" else each[word] for each in (info, also)))
+        ends += rest[1].sum()
+    assert ends >= 3
+
+
+def test_without_autoreset_a_trial_that_has_ended_waits_for_its_reset():
+    env = pg.NeedleVectorEnv("StopAfterPop", 3, autoreset_mode="Disabled")
+    env.reset(seed=1)
+    action = np.array([[1], [0], [0]], np.float32)
+    while not env.step(action)[2].any():
+        pass
+    with pytest.raises(RuntimeError, match="trial 0 has ended: reset it"):
+        env.step(action)
+    env.reset(options={"reset_mask": MASK})
+    assert env.step(action)[0][:, 3].all()
+
+
+def test_the_picture_shows_the_needle_at_its_depth_and_the_force_beside_it():
+    env = gymnasium.make("punctura/StopAfterPop-v0", render_mode="rgb_array")
+    env.reset(seed=2)
+    air = env.render()
+    rows = []
+    for _ in range(6):
+        for _ in range(10):
+            env.step(np.float32([0.4]))
+        changed = (env.render() != air).any(2)
+        needle, curve = changed[:, :240].any(1), changed[:, 240:].any(1)
+        rows.append((np.flatnonzero(needle).max(), np.flatnonzero(curve).max()))
+    assert all(abs(tip - force) <= 2 for tip, force in rows)
+    deeper = np.diff([tip for tip, _ in rows])
+    assert (deeper > 5).all()  # 1.6 mm each, and a pixel is less than 0.2 mm
+    several = gymnasium.make_vec("punctura/Venipuncture-v0", num_envs=2, render_mode="rgb_array")
+    several.reset(seed=2)
+    assert [image.shape for image in several.render()] == [(240, 360, 3)] * 2
+    assert pg.NeedleVectorEnv("StopAfterPop", 1).render() is None
 
 
 def test_a_hand_that_stops_after_the_pop_succeeds_and_one_that_goes_on_fails():
@@ -204,7 +281,7 @@ def test_wrong_use_is_refused_with_a_sentence():
         with pytest.raises(TypeError, match="it must be a whole number"):
             pg.NeedleVectorEnv("StopAfterPop", wrong)
     for environment in (pg.NeedleEnv, pg.NeedleVectorEnv):
-        with pytest.raises(ValueError, match="render_mode is 'human': the environments draw no pictures"):
+        with pytest.raises(ValueError, match="render_mode is 'human'; it can be 'rgb_array'"):
             environment("StopAfterPop", render_mode="human")
 
 
