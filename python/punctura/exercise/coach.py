@@ -31,7 +31,7 @@ from punctura.exercise.seen import (
     TREMOR_GOOD_M,
     TREMOR_OFF_M,
     Seen,
-    Trace,
+    Trajectory,
     off_angle,
 )
 from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace
@@ -49,10 +49,10 @@ def held_still(seen: Seen) -> Iterator[Remark]:
 
 
 def pushed_steadily(seen: Seen) -> Iterator[Remark]:
-    if seen.arrival is not None and seen.pauses.number == 0 and seen.metrics.entries == 1:
-        seconds = seen.metrics.time_to_target
+    seconds = seen.metrics.time_to_target
+    if seconds is not None and seen.pauses.number == 0 and seen.metrics.entries == 1:
         text = f"You pushed without a pause from the {seen.first} to {seen.space.name}, at the first entry."
-        yield Remark(about="pauses", text=text, numbers={"to_target_s": seconds or 0.0})
+        yield Remark(about="pauses", text=text, numbers={"to_target_s": seconds})
 
 
 def kept_the_line(seen: Seen) -> Iterator[Remark]:
@@ -82,21 +82,21 @@ def wrong_angle(seen: Seen) -> Iterator[Remark]:
 
 def too_short(seen: Seen) -> Iterator[Remark]:
     """The needle, or its whole tip, never came into the space."""
-    space, trace = seen.space, seen.trace
+    space, trajectory = seen.space, seen.trajectory
     ended_early = seen.decision is not None and not seen.timed_out
-    if seen.passed or ended_early or not (math.isfinite(trace.nearest) and math.isfinite(trace.tip_nearest)):
+    if seen.passed or ended_early or not (math.isfinite(trajectory.nearest) and math.isfinite(trajectory.tip_nearest)):
         return
     arrived = seen.arrival is not None
     whole = space.stay_whole if arrived else space.arrive_whole
     if arrived and (not space.stay_whole or seen.metrics.longest_stay > 0):
         return
     depth = space.begins if arrived or space.arrive_depth is None else space.arrive_depth
-    point_short = depth - trace.nearest
+    point_short = depth - trajectory.nearest
     if point_short > 0.05e-3:
         text = f"The point stayed {mm(point_short)} or more away from {space.name}: push on until {_sign(seen)}."
-        yield Remark(about="short", text=text, numbers={"short_m": point_short}, time=trace.nearest_at)
+        yield Remark(about="short", text=text, numbers={"short_m": point_short}, time=trajectory.nearest_at)
         return
-    tip_short = depth - trace.tip_nearest
+    tip_short = depth - trajectory.tip_nearest
     if whole and tip_short > 0.05e-3:
         text = (
             f"The point was in {space.name}, but the end of the tip was still {mm(tip_short)} outside: go on until "
@@ -110,17 +110,17 @@ def _sign(seen: Seen) -> str:
 
 
 def pressed(seen: Seen) -> Iterator[Remark]:
-    trace = seen.trace
-    if trace.pressed_s < PRESSED_S or trace.pressed_m < 0.05e-3:
+    trajectory = seen.trajectory
+    if trajectory.pressed_s < PRESSED_S or trajectory.pressed_m < 0.05e-3:
         return
     what = f"against the {seen.after}" if seen.after else "too deep"
     text = (
-        f"You were {what} for {tenths(trace.pressed_s)} s, up to {mm(trace.pressed_m)} behind the end of "
+        f"You were {what} for {tenths(trajectory.pressed_s)} s, up to {mm(trajectory.pressed_m)} behind the end of "
         f"{seen.space.name}: draw back as soon as "
         + ("the force grows again." if seen.after else f"you are {mm(seen.space.ends)} past the {seen.before}.")
     )
-    numbers = {"pressed_s": trace.pressed_s, "pressed_m": trace.pressed_m}
-    yield Remark(about="pressed", text=text, numbers=numbers, time=trace.pressed_at)
+    numbers = {"pressed_s": trajectory.pressed_s, "pressed_m": trajectory.pressed_m}
+    yield Remark(about="pressed", text=text, numbers=numbers, time=trajectory.pressed_at)
 
 
 def left_the_space(seen: Seen) -> Iterator[Remark]:
@@ -179,11 +179,11 @@ class Coach:
         self._limits = [judge for judge in judges if isinstance(judge, LimitJudge)]
         self._judges = judges
         self._first = scene.membranes[0].name
-        self._trace = Trace(space, scene.servo.rate)
+        self._trajectory = Trajectory(space, scene.servo.rate)
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         """Takes ticks with their stays marked, and their events."""
-        self._trace.add(ticks, events)
+        self._trajectory.add(ticks, events)
 
     def words(self, passed: bool, decision: Moment | None, measures: Measures) -> Coaching:
         """At most MOST_REMARKS sentences of each sort, the most important first."""
@@ -194,7 +194,7 @@ class Coach:
         seen = Seen(
             passed, decision, max(holds, default=None), any(one.time_limit is not None for one in missed),
             self._space, space.behind, space.in_front_of or "", self._first, asked_angle(self._file),
-            measures.metrics(), measures.first_touch, self._trace,
+            measures.metrics(), measures.first_touch, self._trajectory,
         )  # fmt: skip
         change = list({one.about: one for one in reversed(list(self._change(seen, missed)))}.values())[::-1]
         wrong = {about for one in change for about in (one.about, *CONTRADICTS.get(one.about, ()))}

@@ -71,7 +71,7 @@ class Samples(NamedTuple):
     late: Flags  # the page that moves the hand is late
 
 
-class Trace:
+class Trajectory:
     """Takes the ticks of an attempt up to its decision, in batches of any size, and their events."""
 
     def __init__(self, space: TargetSpace, rate: float) -> None:
@@ -236,20 +236,20 @@ class Seen:
     angle: float  # that is asked between the needle and the first surface, rad
     metrics: Metrics
     first_touch: float | None  # s
-    trace: Trace
+    trajectory: Trajectory
 
     @cached_property
     def hold(self) -> Hold | None:
         """How still the needle was; None without a goal to stay, or without a stay."""
-        return hold_of(self.trace.samples) if self.hold_s is not None else None
+        return hold_of(self.trajectory.samples) if self.hold_s is not None else None
 
     @cached_property
     def pauses(self) -> Pauses:
-        return pauses_of(self.trace.samples, math.inf if self.arrival is None else self.arrival)
+        return pauses_of(self.trajectory.samples, math.inf if self.arrival is None else self.arrival)
 
     @cached_property
     def stays(self) -> int:
-        return stays_of(self.trace.samples)
+        return stays_of(self.trajectory.samples)
 
     def newtons(self, force: float) -> str:
         """A force of the model; "model force" stands beside it if the hand did not get all of it."""
@@ -264,7 +264,7 @@ class Seen:
 
     def stops(self, membrane: int) -> Iterator[tuple[Push, Overshoot]]:
         """Each pop of a membrane: the needle before it, and how far it went on."""
-        pushes = {round(one.time, 9): one for one in self.trace.pushes if one.membrane == membrane}
+        pushes = {round(one.time, 9): one for one in self.trajectory.pushes if one.membrane == membrane}
         for one in self.metrics.overshoot:
             push = pushes.get(round(one.time, 9))
             if one.membrane == membrane and push is not None:

@@ -99,7 +99,7 @@ class SpeedJudge(LimitJudge):
         return f"You pushed in faster than {self.at_most * 1e3:g} mm/s."
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
-        fast = seen.trace.last.speed
+        fast = seen.trajectory.last.speed
         text = f"You moved in at {speed(fast)}; {speed(self.at_most)} are allowed: push more slowly."
         yield Remark(about="speed", text=text, numbers={"speed_m_s": fast, "allowed_m_s": self.at_most})
 

@@ -51,7 +51,7 @@ class NeverPassJudge(LimitJudge):
         return f"You went through the {self.membrane} {tenths(when.time - so_far.arrival)} s after {space.arrival}."
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
-        last = seen.trace.last
+        last = seen.trajectory.last
         if last.speed <= 0:
             return  # the readings before it are missing
         since = None if seen.arrival is None or seen.decision is None else seen.decision.time - seen.arrival
@@ -224,7 +224,7 @@ class DepthJudge(LimitJudge):
         return f"The point went more than {self.at_most * 1e3:g} mm past the {self.behind}."
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
-        fast = max(0.0, seen.trace.last.speed)
+        fast = max(0.0, seen.trajectory.last.speed)
         text = (
             f"You still moved in at {speed(fast)} when the point was {mm(self.at_most)} past the {self.behind}: stop "
             "as soon as it gives way."
