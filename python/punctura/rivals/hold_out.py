@@ -71,16 +71,16 @@ def fitted(
     trace: Trace,
     needle: Needle,
     membranes: int | Literal["auto"],
-    progress: Callable[[str], None],
+    report: Callable[[str], None],
     rig: Rig = UNKNOWN,
 ) -> Fitted:
     """Fits K06, as identify() chooses it, and all rivals. Raises TraceError; ConfigurationError, as identify()."""
-    found = identify(trace, needle, membranes, progress, rig)
+    found = identify(trace, needle, membranes, report, rig)
     trace, segments = found.trace, found.segments  # without the noise of the depth, for all models
     fits = []
     with one_thread("punctura.rivals"):
         for kind in kinds().values():
-            progress(kind.title)
+            report(kind.title)
             fits.append(fit_rival(kind, trace, segments))
     return Fitted(trace, segments, found, tuple(fits), rig)
 
@@ -89,7 +89,7 @@ def second_insertion(
     trace: Trace,
     needle: Needle,
     membranes: int | Literal["auto"] = "auto",
-    progress: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], None] = lambda _: None,
     rig: Rig = UNKNOWN,
 ) -> tuple[Prediction, ...]:
     """Fits the first insertion and predicts the second one at the same place, the best prediction first.
@@ -103,7 +103,7 @@ def second_insertion(
             "Record one, or give a folder of traces"
         )
     first = trace[trace.strokes == 0]
-    known = fitted(replace(first, findings=()), needle, membranes, progress, rig)
+    known = fitted(replace(first, findings=()), needle, membranes, report, rig)
     both = trace[trace.strokes <= 1]
     later = both.strokes == 1
     return _ranked(trace.source, both.force[later], _forces(known, both, 0.0, later))
