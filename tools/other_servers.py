@@ -179,5 +179,5 @@ SERVERS: dict[str, Any] = {"uvicorn": Uvicorn, "hypercorn": Hypercorn, "granian"
 
 if __name__ == "__main__":
     serve.uvicorn.Server = SERVERS[sys.argv.pop(1)]
-    serve.Connections, serve.gate = Uncounted, lambda loop, connections: None  # type: ignore[attr-defined,misc]
+    vars(serve).update(Connections=Uncounted, GatedLoop=lambda connections: asyncio.new_event_loop())
     main()

@@ -147,11 +147,12 @@ class ServerTransport:
             self._gate.transport.close()
 
 
-def gate(loop: asyncio.AbstractEventLoop, connections: Connections) -> None:
-    """From here on, servers of this loop are behind gates."""
-    create: Any = loop.create_server
+class GatedLoop(asyncio.SelectorEventLoop):
+    """An event loop whose servers stand behind gates."""
 
-    def create_server(make: Callable[[], asyncio.BaseProtocol], *args: Any, **more: Any) -> Any:
-        return create(lambda: Gate(make(), connections), *args, **more)
+    def __init__(self, connections: Connections) -> None:
+        super().__init__()
+        self._connections = connections
 
-    loop.create_server = create_server  # type: ignore[assignment, method-assign]
+    async def create_server(self, protocol_factory: Any, *args: Any, **more: Any) -> asyncio.Server:
+        return await super().create_server(lambda: Gate(protocol_factory(), self._connections), *args, **more)

@@ -25,7 +25,7 @@ from punctura.process.signals import ends_on_signals
 from punctura.studio.app import NO_PAGE, Studio, build_app, likely_folders
 from punctura.studio.catalog import Exercises
 from punctura.studio.connections import Connections, open_file_limit, room
-from punctura.studio.gate import gate
+from punctura.studio.gate import GatedLoop
 from punctura.studio.hub import Hub
 from punctura.studio.limits import ACCEPTED_AT_ONCE, LISTEN_QUEUE, MOST_SCENE_TEXT
 from punctura.studio.loaded import Loaded
@@ -99,13 +99,22 @@ class StudioServer:
             backlog=ACCEPTED_AT_ONCE,
         )
         self._server = uvicorn.Server(config)
-        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()), name="punctura-server", daemon=True)
+        self._thread = threading.Thread(target=self._serve, name="punctura-server", daemon=True)
 
-    async def _serve(self) -> None:
-        loop = asyncio.get_running_loop()
+    def _serve(self) -> None:
+        """As asyncio.run(), which takes no loop of one's own before Python 3.12."""
+        loop = GatedLoop(self.connections)
         loop.set_exception_handler(lambda _, context: report_defect(context.get("exception")))
-        gate(loop, self.connections)
-        await self._server.serve(sockets=[self._socket])
+        try:
+            loop.run_until_complete(self._server.serve(sockets=[self._socket]))
+        finally:
+            if tasks := asyncio.all_tasks(loop):
+                for task in tasks:
+                    task.cancel()
+                loop.run_until_complete(asyncio.wait(tasks))
+            loop.run_until_complete(loop.shutdown_asyncgens())
+            loop.run_until_complete(loop.shutdown_default_executor())
+            loop.close()
 
     def start(self) -> None:
         """Returns when the server answers and ticks come."""
