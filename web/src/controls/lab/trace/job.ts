@@ -53,13 +53,18 @@ export interface Look {
   readonly trace: TraceLine | null;
 }
 
-/** Looks into a file. tell: gets words while it waits. Throws ApiError, FieldError, or the signal's reason. */
-export async function lookAt(api: Api, file: File, signal: AbortSignal, tell: (words: string) => void): Promise<Look> {
+/** Looks into a file. report: gets words while it waits. Throws ApiError, FieldError, or the signal's reason. */
+export async function lookAt(
+  api: Api,
+  file: File,
+  signal: AbortSignal,
+  report: (words: string) => void,
+): Promise<Look> {
   const query = new URLSearchParams({ name: file.name });
   let held: FileLine | null = null;
   let trace: TraceLine | null = null;
   for await (const line of linesOf(api, `/api/lab/file?${query}`, file, signal)) {
-    if (line.kind === "step") tell(line.words);
+    if (line.kind === "step") report(line.words);
     else if (line.kind === "file") held = line;
     else if (line.kind === "trace") trace = line;
   }
