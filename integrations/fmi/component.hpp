@@ -81,7 +81,8 @@ int set_all(void* c, const char* function, Kind kind, const std::uint32_t* refer
   return call(c, Call::set, function, [&](Instance& instance) {
     if (n != count) return instance.fail("the numbers of references and values differ: all variables are scalars");
     for (std::size_t i = 0; i < n; ++i)
-      if (!instance.set(references[i], kind, static_cast<double>(values[i]))) return false;
+      if (!instance.settable(references[i], kind)) return false;
+    for (std::size_t i = 0; i < n; ++i) instance.set(references[i], static_cast<double>(values[i]));
     return true;
   });
 }

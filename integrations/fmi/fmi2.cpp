@@ -113,7 +113,8 @@ EXPORT int fmi2SetRealInputDerivatives(void* c, const unsigned* references, std:
                                        const double* values) {
   return call(c, Call::derive, __func__, [&](Instance& instance) {
     for (std::size_t i = 0; i < n; ++i)
-      if (!instance.set_derivative(references[i], orders[i], values[i])) return false;
+      if (!instance.derivable(references[i], orders[i], values[i])) return false;
+    for (std::size_t i = 0; i < n; ++i) instance.set_derivative(references[i], values[i]);
     return true;
   });
 }

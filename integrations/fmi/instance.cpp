@@ -116,30 +116,37 @@ bool Instance::get(std::uint32_t reference, Kind kind, double& value) {
   return value = values[of_membranes % 4], true;
 }
 
-bool Instance::set(std::uint32_t reference, Kind kind, double value) {
+bool Instance::settable(std::uint32_t reference, Kind kind) {
   if (!check(reference, kind)) return false;
-  if (reference >= input_reference && reference < output_reference)
-    return run_.input[reference - input_reference] = value, true;
+  if (reference >= input_reference && reference < output_reference) return true;
   const bool parameter = reference >= parameter_reference;
   if (!parameter && reference != ramp_reference)
     return fail("the variable with the value reference " + std::to_string(reference) + " is no input and no parameter");
-  if (run_.state == State::running)
-    return fail((parameter ? parameters_[reference - parameter_reference] : "ramp") +
-                " cannot be set after the initialization");
-  if (!parameter) return run_.ramp = value != 0, true;
-  punctura_scene_set(scene_.get(), parameters_[reference - parameter_reference].c_str(), value);
-  values_[reference - parameter_reference] = value;
-  return true;
+  return run_.state != State::running || fail((parameter ? parameters_[reference - parameter_reference] : "ramp") +
+                                              " cannot be set after the initialization");
 }
 
-bool Instance::set_derivative(std::uint32_t reference, int order, double value) {
+void Instance::set(std::uint32_t reference, double value) {
+  if (reference < output_reference) {
+    run_.input[reference - input_reference] = value;
+  } else if (reference == ramp_reference) {
+    run_.ramp = value != 0;
+  } else {
+    punctura_scene_set(scene_.get(), parameters_[reference - parameter_reference].c_str(), value);
+    values_[reference - parameter_reference] = value;
+  }
+}
+
+bool Instance::derivable(std::uint32_t reference, int order, double value) {
   if (reference < input_reference || reference >= output_reference)
     return fail("value reference " + std::to_string(reference) + " is no input");
-  if (order != 1 || !std::isfinite(value))
-    return fail("only first derivatives are possible, and they must be finite numbers");
+  return (order == 1 && std::isfinite(value)) ||
+         fail("only first derivatives are possible, and they must be finite numbers");
+}
+
+void Instance::set_derivative(std::uint32_t reference, double value) {
   run_.derivative[reference - input_reference] = value;
   run_.given = 1;
-  return true;
 }
 
 bool Instance::set_times(double start, double stop) {

@@ -68,8 +68,12 @@ class Instance {
   static std::unique_ptr<Instance> make(const std::string& resources, std::string& error);
 
   bool get(std::uint32_t reference, Kind kind, double& value);
-  bool set(std::uint32_t reference, Kind kind, double value);
-  bool set_derivative(std::uint32_t reference, int order, double value);
+  /// Whether set() may be called now. Reports what is wrong, and changes nothing.
+  bool settable(std::uint32_t reference, Kind kind);
+  void set(std::uint32_t reference, double value);
+  /// Whether set_derivative() may be called. Reports what is wrong.
+  bool derivable(std::uint32_t reference, int order, double value);
+  void set_derivative(std::uint32_t reference, double value);
 
   /// stop: infinite if the simulator names none.
   bool set_times(double start, double stop);

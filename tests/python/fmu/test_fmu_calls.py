@@ -1,5 +1,7 @@
 """Calls out of order, unknown variables and wrong numbers: an error with a sentence, and nothing changes."""
 
+from ctypes import c_double, c_int, c_size_t, c_uint32
+
 import numpy as np
 import pytest
 from fmu_slave import ERROR, INPUTS, OK, Slave, parameter
@@ -137,6 +139,23 @@ def test_only_variables_of_the_description_are_read_and_set(tmp_path, version):
         assert needle.log[-1].endswith("the variable with the value reference 101 is no input and no parameter")
     needle.leave()
     assert needle.set([10], [False], "Boolean") == ERROR and needle.set([1000], [1e-3]) == ERROR
+
+
+@both
+@pytest.mark.parametrize("wrong", [999, 7, 1000])  # unknown, an output, a parameter in the run
+def test_a_set_with_one_wrong_reference_sets_none(tmp_path, version, wrong):
+    needle = Slave(tmp_path, version).started()
+    before = needle.save()
+    assert needle.set([1, 2, wrong], [0.5, np.nan, 1.0]) == ERROR
+    assert needle.save() == before and needle.step(0.0, T) == OK
+
+
+def test_a_wrong_derivative_sets_none(tmp_path):
+    needle = Slave(tmp_path, 2).started()
+    before = needle.save()
+    references, orders, values = (c_uint32 * 2)(1, 2), (c_int * 2)(1, 2), (c_double * 2)(1.0, 1.0)
+    assert needle("SetRealInputDerivatives", references, c_size_t(2), orders, values) == ERROR
+    assert needle.save() == before
 
 
 def test_a_wrong_parameter_ends_the_initialization_with_all_problems(tmp_path):
