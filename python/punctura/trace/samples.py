@@ -27,7 +27,7 @@ def no_reading(values: Array) -> Array:
             rest = values[np.isfinite(values) & ~found]
             end = far(rest) if len(rest) else np.nan
             others = rest[rest != end]
-            if len(others) < max(20, 0.9 * len(values)):
+            if len(others) < max(20, len(values) / 2):
                 continue
             if float(np.min(np.abs(others - end))) > FAR * float(np.ptp(others)) > 0:
                 found |= values == end

@@ -143,6 +143,14 @@ def test_a_number_for_no_reading_is_left_out_and_named(tmp_path):
     assert ["9.999 m" in one for one in named] == [True, False] and "3 rows hold -9999 and 1e+30 N" in named[1]
 
 
+def test_more_than_a_tenth_of_no_reading_stops_the_identification(tmp_path):
+    made = trace(hold=0.4)
+    force = np.where(np.arange(len(made)) % 5 == 2, -9999, made.force)
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, force_N=force)))
+    assert kinds(read) == {"no_reading", "rows_without_numbers"}
+    assert [one.severe for one in read.findings] == [False, True] and read.force.min() > -100
+
+
 @pytest.mark.parametrize("kind", CHANGES)
 def test_each_defect_is_named_and_no_other(tmp_path, kind):
     made = trace(hold=0.4)
