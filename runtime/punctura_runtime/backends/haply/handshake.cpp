@@ -35,9 +35,9 @@ std::string_view field(std::string_view answer, std::string_view name) {
 std::string upgrade_refusal(std::string_view answer) {
   const std::string_view status = answer.substr(0, answer.find("\r\n"));
   if (!status.starts_with("HTTP/1.1 101")) {
-    std::string said(status.substr(0, 60));
-    std::ranges::replace_if(said, [](char c) { return c < ' ' || c > '~'; }, '?');
-    return "it answered \"" + said + "\" to the request for a WebSocket";
+    std::string first_line(status.substr(0, 60));
+    std::ranges::replace_if(first_line, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return "it answered \"" + first_line + "\" to the request for a WebSocket";
   }
   if (lower(field(answer, "upgrade")) != "websocket" ||
       lower(field(answer, "connection")).find("upgrade") == std::string::npos)

@@ -84,11 +84,11 @@ double run_once(const Lent<Counting>& counting, double patience) {
 void set_rate(const Interface& hd, double wanted, Trial& trial) {
   trial.set = static_cast<unsigned long>(std::lround(std::fmin(wanted, 1e5)));
   hd.set_scheduler_rate(trial.set);
-  if (take_errors(hd).code == success) return trial.told.push_back("rate: asked for " + hertz(wanted));
+  if (take_errors(hd).code == success) return trial.statements.push_back("rate: asked for " + hertz(wanted));
   trial.set = 1000;
   hd.set_scheduler_rate(trial.set);
   take_errors(hd);
-  trial.told.push_back("rate: asked for " + hertz(wanted) + ", refused by this device, so 1000 Hz instead");
+  trial.statements.push_back("rate: asked for " + hertz(wanted) + ", refused by this device, so 1000 Hz instead");
 }
 
 }  // namespace
@@ -104,9 +104,9 @@ Trial try_out(const Session& session, double wanted_rate, double duration, doubl
   const Interface& hd = session.hd();
   Trial trial{};
   set_rate(hd, wanted_rate, trial);
-  int said = 0;
-  hd.get_integers(update_rate, &said);
-  if (take_errors(hd).code != success) said = 0;
+  int reported = 0;
+  hd.get_integers(update_rate, &reported);
+  if (take_errors(hd).code != success) reported = 0;
 
   // The rate counts for the whole run, so measure again if the computer was busy.
   int renewals = 0;
@@ -115,12 +115,12 @@ Trial try_out(const Session& session, double wanted_rate, double duration, doubl
     trial.rate = run_once(counting, duration + patience);
     require_calibration(hd, counting->calibration);
     renewals += counting->renewals;
-    if (said > 0 && std::abs(trial.rate - said) < 0.02 * said) break;
+    if (reported > 0 && std::abs(trial.rate - reported) < 0.02 * reported) break;
   }
   if (!(trial.rate >= 100))
     throw Refused(State::fault, "The HD scheduler calls at " + hertz(trial.rate) + ": too slow for touch.");
-  trial.told.back() += "; the library says " + hertz(said) + ", measured " + hertz(trial.rate);
-  if (renewals > 0) trial.told.push_back("calibration: renewed by the library");
+  trial.statements.back() += "; the library says " + hertz(reported) + ", measured " + hertz(trial.rate);
+  if (renewals > 0) trial.statements.push_back("calibration: renewed by the library");
   return trial;
 }
 

@@ -10,9 +10,9 @@
 namespace punctura::hd {
 
 struct Trial {
-  unsigned long set;              ///< Hz, as accepted by the library
-  double rate;                    ///< measured, Hz
-  std::vector<std::string> told;  ///< for the user
+  unsigned long set;                    ///< Hz, as accepted by the library
+  double rate;                          ///< measured, Hz
+  std::vector<std::string> statements;  ///< for the user
 };
 
 /// Sets the rate, measures it over `duration` (s), and renews the calibration if that needs no user. Throws Refused,

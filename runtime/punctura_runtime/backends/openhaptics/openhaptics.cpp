@@ -112,7 +112,7 @@ std::string OpenHapticsDevice::trouble() const {
 
 std::vector<std::string> OpenHapticsDevice::statements() const {
   std::vector<std::string> all{"device: opened as \"" + session_.name() + "\""};
-  all.insert(all.end(), trial_.told.begin(), trial_.told.end());
+  all.insert(all.end(), trial_.statements.begin(), trial_.statements.end());
   all.emplace_back("thread: the HD library's own, with the priority and the processors that the library gave it");
   for (std::uint32_t i = 0; i < ticking().warnings.counts.size(); ++i)
     if (const auto count = ticking().warnings.counts[i].load(); count > 0)
