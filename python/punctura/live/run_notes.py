@@ -37,7 +37,7 @@ def damping_note(loop: ServoLoop) -> str:
     needed, dry = loop.force_scale * needed_damping(loop.scene), Plant().friction
     return (
         f"the friction of {loop.device.info.model or 'the device'} is not known. With less than {needed:.2g} N s/m of "
-        f"viscous friction it can buzz in a loose grip (the {dry:g} N of dry friction of an Omni do up to "
-        f"{1e3 * dry / needed:.0f} mm/s). If it buzzes, hold it firmly, and lower the coupling's stiffness_N_per_mm or "
-        "the force_scale (docs/passivity.md)"
+        f"viscous friction it can buzz in a loose grip. Dry friction helps, too: {dry:g} N, as an Omni has, are enough "
+        f"up to {1e3 * dry / needed:.0f} mm/s. If it buzzes, hold it firmly, and lower the coupling's "
+        "stiffness_N_per_mm or the force_scale (docs/passivity.md)"
     )

@@ -89,7 +89,7 @@ def test_the_note_has_the_damping_and_the_speed_up_to_which_the_friction_of_an_o
     assert needed_damping(scene) == pytest.approx(5.42, abs=0.005)
     note = damping_note(fed(scene))
     assert "the friction of a stylus is not known" in note
-    assert "5.4 N s/m" in note and "0.26 N" in note and "48 mm/s" in note
+    assert "5.4 N s/m" in note and "0.26 N, as an Omni has, are enough up to 48 mm/s" in note
     scaled = damping_note(fed(scene.replace(display=DisplaySettings(0.5))))
     assert "2.7 N s/m" in scaled and "96 mm/s" in scaled
 
