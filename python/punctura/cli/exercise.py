@@ -71,8 +71,8 @@ def score(
         needed = "" if loss.needed is None else f" ({loss.needed:.2g} N needed)"
         drop = f"{loss.drop:.2f} N" if loss.drop > 0 else "no"
         typer.echo(f"  {drop} loss of resistance felt at the pop of the {loss.name}{needed}")
-    typer.echo(f"  {tenths(m.total_time)} s, of them {tenths(m.dwell)} s in the space")
-    typer.echo(f"  {tenths(m.longest_stay)} s in the space at a time")
+    typer.echo(f"  {tenths(m.total_time)} s from the first contact to the decision")
+    typer.echo(f"  {tenths(m.dwell)} s in the space, at most {tenths(m.longest_stay)} s without a break")
     for one in m.overshoot:
         typer.echo(f"  {one.distance * 1e3:.1f} mm past the {one.name} within {one.seconds:g} s of its pop")
     for gave in m.yields:

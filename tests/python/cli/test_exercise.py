@@ -36,6 +36,7 @@ def test_a_recording_is_scored(punctura, recording):
     assert "\n  missed       Do not go through the back vein wall" in done.stdout
     assert "\n  not decided  Bring the whole tip" in done.stdout
     assert "\n  1 entry, model force 0." in done.stdout
+    assert " s in the space, at most " in done.stdout
     done = punctura("exercise", "score", recording, "--exercise", "venipuncture", "--person", "Ada", "--json")
     result = json.loads(done.stdout)
     assert (result["passed"], result["person"], result["recording"]) == (False, "Ada", "try")
