@@ -121,13 +121,13 @@ def _depth_axis(trace: Trace, segments: Segments) -> Iterator[Finding]:
 
 def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
     if trace.time is None:
-        text = "the trace has no time: damping and relaxation cannot be told"
+        text = "damping and relaxation cannot be told; record the time, too"
         yield Finding("no_time", text)
     if segments.contact is None:
         text = "the force rises from the first samples on: the depth of contact is a guess; begin before contact"
         yield Finding("no_contact", text)
     if not any(stroke.kind == "out" for stroke in segments.strokes):
-        text = "the needle is never withdrawn: friction and grip cannot be told apart; record the withdrawal too"
+        text = "friction and grip cannot be told apart; record the withdrawal, too"
         yield Finding("no_withdrawal", text)
     if not segments.pops:
         text = "the force never drops while the needle goes in; go deeper, until the tip is through"
