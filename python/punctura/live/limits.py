@@ -76,7 +76,8 @@ class RunLimits(NamedTuple):
         if missing:
             has = f"{info.model or info.backend} has {info.button_count or 'no'} button"
             plural = "" if info.button_count == 1 else "s"
-            problems.append(Problem("dead_man_buttons", missing, f"{has}{plural}: it can never be held"))
+            fed = "; state the number in DeviceInfo(button_count=...)" if info.backend == "fed" else ""
+            problems.append(Problem("dead_man_buttons", missing, f"{has}{plural}: it can never be held{fed}"))
         for name, limit in (("stale_ms", made.stale), ("deadline_ms", made.deadline)):
             if limit < 1 / info.rate:
                 reason = f"a period of {info.model or info.backend} is longer, {1e3 / info.rate:.3g} ms"

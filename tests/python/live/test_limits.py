@@ -98,7 +98,7 @@ def test_a_dead_man_button_that_the_device_does_not_have_is_refused(tmp_path):
     limits = limits_of(tmp_path, "dead_man_buttons = [3]")
     assert limits.gate_on(with_buttons(3)).dead_man == 0b100
     for device, words in (
-        (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: it can never be held"),
+        (with_buttons(2), r"dead_man_buttons = \[3\]: a stylus has 2 buttons: it can never be held; state the"),
         (with_buttons(0), "a stylus has no buttons"),
         (with_buttons(1), r"dead_man_buttons = \[3\]: a stylus has 1 button:"),
         (SimulatedDevice(Target([0, 5e-3, 0])), "PHANTOM Omni, simulated has 1 button:"),
