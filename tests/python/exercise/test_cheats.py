@@ -25,7 +25,8 @@ HONEST = {
     "blind": ((8.0, 17.5), (4.0, 17.5)),
 }
 ASIDE = {"rolling-vein": (0.0, 0.0, 4.0)}  # mm, before the entry
-CHEATS = ("stab", "too deep", "too short", "nothing", "force off")
+PAST = {"stab": (25, 300), "no stop": (20, 6)}  # mm past the place, and mm/s, on the way in and back
+CHEATS = (*PAST, "too deep", "too short", "nothing", "force off")
 ANGLED = [name for name in exercise_names() if any(g.kind == "entry_angle" for g in load_exercise(name).goals)]
 
 
@@ -54,11 +55,12 @@ def cheat(name, how):
     """The ticks of an attempt that pretends to do what is asked."""
     legs = HONEST[name]
     end = legs[-1][1]
-    if how == "stab":  # 25 mm past the place, and back to where an honest hand waits
+    if how in PAST:  # it ends where an honest hand waits
+        past, speed = PAST[how]
         exercise = load_exercise(name)
         axis, start, rate = np.asarray(exercise.start_axis), np.asarray(exercise.start_position), 1600
         way = np.concatenate([
-            np.zeros(rate), np.arange(0, end + 25, 0.3e3 / rate), np.arange(end + 25, end, -0.3e3 / rate),
+            np.zeros(rate), np.arange(0, end + past, speed / rate), np.arange(end + past, end, -speed / rate),
             np.full(6 * rate, end - 2.0),
         ])  # fmt: skip
         aside = np.asarray(ASIDE.get(name, (0.0, 0.0, 0.0))) * 1e-3
