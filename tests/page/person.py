@@ -19,6 +19,7 @@ from punctura.exercise import load_exercise
 
 # ms: of every action and every expectation. A test that passes does not wait so long, however busy the computer is.
 PATIENCE = 120_000
+COMPUTING = 3 * PATIENCE  # of what the Lab computes: its process has the lowest priority
 # A picture every 160 ms and not every 17: the processor draws them, and has the rest of its time for the tests.
 FEWER_PICTURES = """const next = requestAnimationFrame.bind(window), drop = cancelAnimationFrame.bind(window);
 const ends = new Map();

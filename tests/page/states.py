@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from person import events, push, ready, tab, view
+from person import COMPUTING, events, push, ready, tab, view
 from playwright.sync_api import Page, expect
 from traced import answer, dropped
 
@@ -65,7 +65,7 @@ def _tabs(page: Page) -> Iterator[State]:
         tab(page, name)
         yield State(f"the tab {name}", ".side")
     tab(page, "Lab").get_by_role("checkbox", name="Estimate").check()
-    expect(page.locator(".estimate")).to_be_visible()
+    expect(page.locator(".estimate")).to_be_visible(timeout=COMPUTING)
     yield State("the tab Lab, with the estimate while it runs", ".side")
     page.get_by_role("checkbox", name="Estimate").uncheck()
     side = tab(page, "Scene")
@@ -157,6 +157,6 @@ def _lab(page: Page) -> Iterator[State]:
     yield State("a dropped trace with a question unanswered, and a mean in the plots", ".force-depth, .side")
     answer(form)
     form.get_by_role("button", name="Identify").click()
-    expect(page.get_by_role("dialog").get_by_role("region", name="Models")).to_be_visible()
+    expect(page.get_by_role("dialog").get_by_role("region", name="Models")).to_be_visible(timeout=COMPUTING)
     yield State("an identified trace", "dialog")
     page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()

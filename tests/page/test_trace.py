@@ -3,7 +3,7 @@
 import re
 
 import punctura as pn
-from person import drag_in, events, ready, saved
+from person import COMPUTING, drag_in, events, ready, saved
 from playwright.sync_api import Page, expect
 from traced import DROP, answer, dropped, measured
 
@@ -24,7 +24,8 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     form.get_by_role("button", name="Identify").click()
 
     dialog = page.get_by_role("dialog")
-    expect(dialog).to_contain_text(re.compile(r"K06 with one membrane follows the force to 9\.[45] mN rms"))
+    follows = re.compile(r"K06 with one membrane follows the force to 9\.[45] mN rms")
+    expect(dialog).to_contain_text(follows, timeout=COMPUTING)
     expect(dialog.get_by_role("row", name="Membrane 1: friction")).to_contain_text("0.19")
     expect(dialog).to_contain_text("insert a second time at the same place")
     expect(dialog.get_by_role("region", name="Models").get_by_role("row")).to_have_count(11)
