@@ -10,7 +10,10 @@ import typer
 from punctura.live import enumerate_devices
 
 
-def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False) -> None:
+def command(
+    verbose: Annotated[bool, typer.Option("--verbose", help="Also print where a library was looked for.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False,
+) -> None:
     """Lists the devices. If one is not available, says what to do."""
     entries = enumerate_devices()
     if as_json:
@@ -18,7 +21,7 @@ def command(as_json: Annotated[bool, typer.Option("--json", help="Print the list
         return
     for entry in entries:
         typer.echo(f"{entry['backend']:16} {entry['state'].replace('_', ' ')}")
-        if entry["detail"]:
-            typer.echo(f"{'':16} {entry['detail']}")
+        for line in entry["detail"].splitlines()[: None if verbose else 1]:
+            typer.echo(f"{'':16} {line}")
         for device in entry["devices"]:
             typer.echo(f"{'':16} - {device}")

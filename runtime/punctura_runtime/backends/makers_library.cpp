@@ -59,8 +59,8 @@ LoadedLibrary load_makers_library(LibrarySearch search, const std::string& named
             place};
   }
   return {BackendStatus::State::library_not_found,
-          search.what + " was not found: looked for " + joined(search.places) + search.also + "." + broken + " " +
-              search.install + or_name,
+          search.what + " was not found." + broken + " " + search.install + or_name +
+              "\nLooked for: " + joined(search.places) + search.also + ".",
           ""};
 }
 

@@ -35,7 +35,7 @@ struct LibrarySearch {
 
 struct LoadedLibrary {
   BackendStatus::State state = BackendStatus::State::library_not_found;
-  std::string detail;  ///< what is wrong and what to do, in whole sentences; empty if it is available
+  std::string detail;  ///< what is wrong and what to do; on a second line, where it was looked for; empty if available
   std::string path;    ///< of the library that was loaded
 };
 

@@ -42,12 +42,12 @@ TEST_CASE("a library that lacks functions is refused, with their names and what 
                     "library in PUNCTURA_TEST_LIBRARY."));
 }
 
-TEST_CASE("without a library, the message lists all searched places and what to do") {
+TEST_CASE("without a library, the message says what to do, and lists all searched places on a line of their own") {
   const auto loaded = load_makers_library(search({"/nowhere/a.so", "/nowhere/b.so"}), "", {});
   CHECK(loaded.state == BackendState::library_not_found);
   CHECK(loaded.detail ==
-        "The library was not found: looked for /nowhere/a.so, /nowhere/b.so. Install it, or name the library in "
-        "PUNCTURA_TEST_LIBRARY.");
+        "The library was not found. Install it, or name the library in PUNCTURA_TEST_LIBRARY.\n"
+        "Looked for: /nowhere/a.so, /nowhere/b.so.");
 }
 
 TEST_CASE("only a named library is tried: the caller's name, then the variable's") {
