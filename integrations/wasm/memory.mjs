@@ -16,16 +16,40 @@ function importsOf(module) {
   return all;
 }
 
-async function bytesOf(source) {
-  if (source !== undefined && !(source instanceof URL) && typeof source !== "string") return source;
-  const url = new URL(source ?? "./punctura.wasm", import.meta.url);
-  if (url.protocol !== "file:") {
-    const answer = await fetch(url);
-    if (!answer.ok) throw new Error(`${url} cannot be loaded: status ${answer.status}`);
-    return answer.arrayBuffer();
-  }
-  const { readFile } = await import("node:fs/promises");
+async function fetched(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url} cannot be loaded: status ${answer.status}`);
+  return answer.arrayBuffer();
+}
+
+async function bytesAt(url) {
+  if (url.protocol !== "file:") return fetched(url);
+  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ NODE_FILES);
   return readFile(url);
+}
+const NODE_FILES = "node:fs/promises"; // a name that no bundler resolves
+
+/**
+ * punctura.wasm beside this file. A bundler that knows this form of URL copies the file. Where it does not, or where a
+ * server answers with something else, the bytes come from a module that every bundler takes along.
+ */
+async function ownBytes() {
+  try {
+    const bytes = new Uint8Array(await bytesAt(new URL("./punctura.wasm", import.meta.url)));
+    if (MAGIC.every((byte, i) => bytes[i] === byte)) return bytes;
+  } catch {
+    // as if the server had answered with something else
+  }
+  const { text } = await import("./embedded.mjs");
+  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+}
+const MAGIC = [0, 0x61, 0x73, 0x6d]; // the first bytes of each WebAssembly module
+
+function bytesOf(source) {
+  if (source === undefined) return ownBytes();
+  if (!(source instanceof URL) && typeof source !== "string") return source;
+  const base = import.meta.url; // apart from `new URL`, of which a bundler wants to know the file
+  return bytesAt(new URL(source, base));
 }
 
 /** An error with `problems`: where in the scene, the value, and the reason. */

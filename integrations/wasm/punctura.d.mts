@@ -306,5 +306,5 @@ export interface Punctura {
   tablesOf(toml: string): { [key: string]: unknown } | null;
 }
 
-/** Loads the module. source: its URL or its bytes; without it, punctura.wasm beside this file. */
+/** Loads the module. source: its URL or its bytes; without it, punctura.wasm beside this file, or embedded.mjs. */
 export function load(source?: string | URL | BufferSource): Promise<Punctura>;

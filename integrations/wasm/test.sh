@@ -26,3 +26,4 @@ command -v chromium-headless-shell >/dev/null || command -v chromium >/dev/null 
   { echo "Chromium is missing. Debian: apt-get install chromium-headless-shell"; exit 77; }
 python3 "$root/tools/build_backend/static_page.py" --keep-wasm "$work/page"
 python3 -m pytest -q -p no:cacheprovider "$here/test_page.py" --page "$work/page"
+python3 -m pytest -q -p no:cacheprovider "$here/test_bundlers.py"
