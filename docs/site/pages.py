@@ -13,7 +13,7 @@ PACKAGES = [
     "punctura.live", "punctura.record", "punctura.events", "punctura.exercise", "punctura.reproduce",
     "punctura.rivals", "punctura.trace", "punctura.identify",
     "punctura.mujoco",
-    "punctura.gym", "punctura.study", "punctura.paths",
+    "punctura.gym", "punctura.study", "punctura.perception", "punctura.paths",
 ]  # fmt: skip
 
 

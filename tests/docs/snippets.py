@@ -8,7 +8,8 @@ The words behind a block's opening fence say what happens to it:
     ```sh                            runs in bash, in the page's own empty folder
     ```cpp                           is compiled
     ```c                             a whole program in C99 for the C library: is compiled
-    ```toml scene                    is read as what it is: scene, limits, placement, exercise, plan or pyproject
+    ```toml scene                    is read as what it is: scene, limits, placement, exercise, plan,
+                                     protocol or pyproject
     ```toml scene save=mine.toml     and is saved in the page's folder, for the blocks that follow
     ```text output                   is what the block before it must have printed
     ```text                          is a drawing, a formula or an output that differs from run to run
@@ -79,12 +80,14 @@ def read_toml(code: str, kind: str) -> None:
     from punctura.exercise import load_exercise
     from punctura.files.toml import parse_toml
     from punctura.live import load_limits, load_placement
+    from punctura.perception import load_protocol
     from punctura.scene import load_scene
     from punctura.study import load_plan
 
     readers: dict[str, Callable[[Path], Any]] = {
         "scene": load_scene, "limits": load_limits, "placement": load_placement, "exercise": load_exercise,
-        "plan": load_plan, "pyproject": lambda path: parse_toml(path.read_text(), path),
+        "plan": load_plan, "protocol": load_protocol,
+        "pyproject": lambda path: parse_toml(path.read_text(), path),
     }  # fmt: skip
     assert kind in readers, f"behind ```toml stands none of: {', '.join(readers)}"
     with tempfile.TemporaryDirectory() as folder:

@@ -106,7 +106,7 @@ def load_plan(path: str | os.PathLike[str]) -> Plan:
         file = PlanFile.model_validate(tables)
     except ValidationError as error:
         problems += [problem for _, problem in SCHEMA.problems(error)]
-    scene, found = _scene(tables, path)
+    scene, found = scene_of(tables, path)
     problems += found
     if file is not None:
         problems += _numbers(file)
@@ -118,7 +118,8 @@ def load_plan(path: str | os.PathLike[str]) -> Plan:
     return _built(path, file, scene)
 
 
-def _scene(tables: Tables, path: Path) -> tuple[Scene | None, list[Problem]]:
+def scene_of(tables: Tables, path: Path) -> tuple[Scene | None, list[Problem]]:
+    """The scene that a file names: a ready one, or a file beside it. None without a name or with problems."""
     given = tables.get("scene")
     if not isinstance(given, str):
         return None, []
@@ -192,7 +193,8 @@ def _is_finite(value: object) -> bool:
     return value is None or math.isfinite(float(str(value)))
 
 
-def _nearest(path: str, known: Sequence[str]) -> str:
+def nearest(path: str, known: Sequence[str]) -> str:
+    """A known path that is similar, as the end of a reason; empty if there is none."""
     near = difflib.get_close_matches(path, known, 1, 0.5)
     return f"; did you mean {near[0]}?" if near else ""
 
@@ -204,7 +206,7 @@ def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
     seen: set[str] = set()
     for at, path in [(f"variable[{i}].path", one.path) for i, one in enumerate(file.variable)]:
         if path not in known:
-            near = _nearest(path, known)
+            near = nearest(path, known)
             reason = "is not a number of the scene, the hand, the plant or the strokes"
             yield Problem(at, path, f"{reason}{near} (docs/study.md)")
         if path in seen:
@@ -214,7 +216,7 @@ def _names(file: PlanFile, scene: Scene | None) -> Iterator[Problem]:
         if path in seen:
             yield Problem(f"values.{path}", path, "is also the path of a variable; give it in one of them")
         if path not in known or path.startswith("strokes."):
-            near = _nearest(path, [one for one in known if not one.startswith("strokes.")])
+            near = nearest(path, [one for one in known if not one.startswith("strokes.")])
             yield Problem(
                 f"values.{path}", path, f"is not a number of the scene, the hand or the plant{near} (docs/study.md)"
             )

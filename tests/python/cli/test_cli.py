@@ -208,6 +208,7 @@ READS_A_FILE = {
     "export-fmu": ["--out", "o.fmu"],
     "identify": ["--needle", "diameter_mm=1,tip_angle_deg=20"],
     "measure": [],
+    "perception check": [],
     "place": [],
     "replay": [],
     "run": ["--headless"],

@@ -55,6 +55,7 @@ CALLS = {
     "identify any.csv --needle diameter_mm=1,tip_angle_deg=20": IDENTIFY,
     "measure any.csv": FILES,
     "paths": NOTHING,
+    "perception check pop-jnd": ("scipy", "study"),
     "place --device simulated --out placement.toml": NOTHING,
     "replay any.parquet": FILES,
     "reproduce --out out": ("matplotlib", "plots"),

@@ -1,0 +1,221 @@
+"""`punctura perception`: psychophysics by a protocol file, with people or simulated observers."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from punctura.cli._notice import notice
+from punctura.cli._out import check_folder
+from punctura.process.signals import Ended
+from punctura.progress import progress_bar
+
+if TYPE_CHECKING:
+    from punctura.perception import Analysis, Protocol
+
+command = typer.Typer(no_args_is_help=True, help="Psychophysics: asks people what they feel, and analyses the answers.")
+
+File = Annotated[str, typer.Argument(help="A protocol file, or the name of a ready protocol.", metavar="PROTOCOL")]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", help="Folder of the sessions. Default: PROTOCOL with .perception.", metavar="FOLDER"),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
+Weber = Annotated[float, typer.Option(min=0, help="Noise of the observer, as a share of what is judged.")]
+Noise = Annotated[float, typer.Option(min=0, help="Noise of the observer that does not depend on it, N.")]
+Masking = Annotated[float, typer.Option(min=0, help="Noise of the observer, as a share of the largest force.")]
+Bias = Annotated[float, typer.Option(help="What the observer adds to the comparison, N.")]
+Lapse = Annotated[float, typer.Option(min=0, max=1, help="Share of answers by chance.")]
+Criterion = Annotated[float | None, typer.Option(help="From where the observer says yes, N.")]
+Seed = Annotated[int, typer.Option(min=0, help="Of the observers.")]
+
+
+@command.command("list")
+def list_protocols(as_json: Json = False) -> None:
+    """Lists the ready protocols."""
+    from punctura.perception.load import protocol_files
+
+    entries = [{"name": path.stem, "title": title, "file": str(path)} for path, title in protocol_files()]
+    if as_json:
+        typer.echo(json.dumps(entries, indent=2))
+        return
+    width = max(len(entry["name"]) for entry in entries)
+    for entry in entries:
+        typer.echo(f"{entry['name']:{width}}  {entry['title']}")
+
+
+@command.command()
+def check(protocol: File, as_json: Json = False) -> None:
+    """Checks a protocol, and says what a hand without tremor feels of each level."""
+    from punctura.perception import load_protocol
+    from punctura.perception.course import Course
+
+    loaded = load_protocol(protocol)
+    trials = len(Course(loaded, 0))
+    levels = [{"level": one.level, **asdict(one.felt)} for one in loaded.stimuli]
+    if as_json:
+        typer.echo(
+            json.dumps({"protocol": loaded.name, "unit": loaded.unit, "trials": trials, "levels": levels}, indent=2)
+        )
+        return
+    typer.echo(f"{loaded.file.title}: {trials} trials a person, practice and catch trials included")
+    for one in loaded.stimuli:
+        typer.echo(
+            f"  {one.level:g} {loaded.unit}: drop {one.felt.drop:.3f} N, peak {one.felt.peak:.3f} N, "
+            f"roughness {one.felt.roughness * 1e3:.1f} mN"
+        )
+
+
+@command.command()
+def run(
+    protocol: File,
+    participant: Annotated[str, typer.Option(help="Pseudonym, such as P01; no name.")],
+    out: Out = None,
+    device: Annotated[str, typer.Option(help="As for punctura run.", metavar="NAME")] = "simulated",
+    limits: Annotated[
+        Path | None, typer.Option(help="TOML file with force and input limits (docs/safety.md).", metavar="FILE")
+    ] = None,
+) -> None:
+    """Runs a participant's session in this terminal, or the rest of it: each answered trial is on disk at once."""
+    from punctura.live import RunLimits, load_limits
+    from punctura.perception import load_protocol
+    from punctura.perception.terminal import Terminal, device_of, run_session
+
+    loaded, folder = load_protocol(protocol), _folder(protocol, out)
+    allowed = load_limits(limits) if limits else RunLimits()
+    terminal = Terminal(typer.echo, _ask, device_of(device), allowed)
+    try:
+        done = run_session(loaded, folder, participant, terminal)
+    except (KeyboardInterrupt, EOFError, typer.Abort, Ended):
+        notice(f"{folder} keeps the answered trials: the same command goes on with the next one")
+        raise
+    typer.echo(f"{done} trials of {participant} are in {folder}")
+
+
+def _ask(text: str) -> str:
+    return str(typer.prompt(text.rstrip(" :"), default="", show_default=False, prompt_suffix=": "))
+
+
+@command.command()
+def simulate(
+    protocol: File,
+    out: Out = None,
+    people: Annotated[int, typer.Option(min=1, max=1000, help="Number of observers.")] = 1,
+    weber: Weber = 0.1,
+    noise: Noise = 0.0,
+    masking: Masking = 0.0,
+    bias: Bias = 0.0,
+    lapse: Lapse = 0.02,
+    criterion: Criterion = None,
+    seed: Seed = 0,
+    as_json: Json = False,
+) -> None:
+    """Runs simulated observers O01, O02, ... through the protocol, and analyses their sessions."""
+    from punctura.perception import Observer, Simulation, load_protocol
+
+    folder = _folder(protocol, out)
+    loaded = load_protocol(protocol)
+    simulation = Simulation(loaded, Observer(weber, noise, masking, bias, lapse, criterion))
+    try:
+        with progress_bar("observers") as progress:
+            for i in range(people):
+                simulation.run_on_disk(folder, f"O{i + 1:02d}", seed + i)
+                progress((i + 1) / people)
+    except (KeyboardInterrupt, Ended):
+        notice(f"{folder} keeps the answered trials: the same command goes on with the next one")
+        raise
+    _analysed(loaded, folder, as_json)
+
+
+@command.command()
+def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
+    """Analyses all sessions of a folder: report.md, results.json, trials.csv, trials.parquet, dictionary.csv."""
+    from punctura.perception import load_protocol
+
+    _analysed(load_protocol(protocol), _folder(protocol, out), as_json)
+
+
+def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
+    from punctura.perception.report import report_of_folder
+
+    found = report_of_folder(protocol, folder)
+    if as_json:
+        typer.echo(json.dumps(asdict(found), indent=2))
+        return
+    _print(found)
+    typer.echo(str(folder / "report.md"))
+
+
+def _print(found: Analysis) -> None:
+    from punctura.perception.report import words
+
+    for one in found.people:
+        text = one.reason or f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
+        typer.echo(f"{one.participant}: {one.trials} trials, {text}")
+    mean = found.reason or f"threshold {words(found.threshold)} {found.unit}, JND {words(found.jnd)}"
+    typer.echo(f"mean of people: {mean}")
+
+
+@command.command()
+def power(
+    protocol: File,
+    trials: Annotated[str, typer.Option(help="Scored trials of a person, such as 60,120,240.")] = "60,120,240",
+    people: Annotated[str, typer.Option(help="Numbers of people, such as 4,8.")] = "4,8",
+    experiments: Annotated[int, typer.Option(min=2, max=10_000, help="Simulated experiments a row.")] = 20,
+    between: Annotated[float, typer.Option(min=0, max=2, help="Spread of the people's noise, as a share.")] = 0.2,
+    weber: Weber = 0.1,
+    noise: Noise = 0.0,
+    masking: Masking = 0.0,
+    bias: Bias = 0.0,
+    lapse: Lapse = 0.02,
+    criterion: Criterion = None,
+    seed: Seed = 0,
+    as_json: Json = False,
+) -> None:
+    """How wide the intervals become with so many trials and people, by simulated observers."""
+    from punctura.perception import Observer, load_protocol
+    from punctura.perception import power as rows_of
+
+    counts = _numbers(trials, "--trials"), _numbers(people, "--people")
+    loaded = load_protocol(protocol)
+    observer = Observer(weber, noise, masking, bias, lapse, criterion)
+    with progress_bar("power") as progress:
+        rows = rows_of(loaded, observer, *counts, experiments, seed, between, progress)
+    if as_json:
+        typer.echo(json.dumps([asdict(row) for row in rows], indent=2))
+        return
+    typer.echo(f"trials  people  interval of a person, {loaded.unit}  of the mean, {loaded.unit}  without a threshold")
+    for row in rows:
+        typer.echo(
+            f"{row.trials:6}  {row.people:6}  {row.person_width:26.3g}  {row.mean_width:14.3g}  {row.without:20.1%}"
+        )
+
+
+def _numbers(text: str, option: str) -> list[int]:
+    try:
+        found = [int(part) for part in text.split(",")]
+    except ValueError:
+        found = []
+    if not found or min(found) < 1:
+        raise typer.BadParameter("must be whole numbers from 1, with commas between them", param_hint=option)
+    return found
+
+
+@command.command()
+def delete(
+    protocol: File, participant: Annotated[str, typer.Argument(help="Pseudonym.", metavar="PSEUDONYM")], out: Out = None
+) -> None:
+    """Deletes a participant's session and recordings, and the tables and the report that contain them."""
+    from punctura.perception.report import forget
+
+    for path in forget(_folder(protocol, out), participant):
+        typer.echo(f"deleted {path}")
+
+
+def _folder(protocol: str, out: Path | None) -> Path:
+    check_folder(out, "--out")
+    return out or Path(protocol).with_suffix(".perception")

@@ -1,0 +1,184 @@
+"""A protocol: the schema of its file, and the protocol after checking (docs/perception.md)."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from punctura import Scene
+from punctura.files.fields import Number, Numbers, Text, WholeNumber
+from punctura.files.tables import Schema, Table
+from punctura.perception.psychometric import Shape
+from punctura.perception.stimulus import QUANTITIES, Felt
+
+Method = Literal["constant", "staircase", "quest"]
+Task = Literal["two_intervals", "three_intervals", "yes_no"]
+ANSWERS: dict[str, tuple[str, ...]] = {
+    "two_intervals": ("first", "second"),
+    "three_intervals": ("first", "second", "third"),
+    "yes_no": ("yes", "no"),
+}
+_KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n"}
+
+
+class StimulusTable(Table):
+    """What differs between the trials. SI."""
+
+    variable: Text  # a path of the scene, or one of QUANTITIES
+    levels: Numbers
+    reference: Number | None = None  # level of the other intervals; not for yes_no
+    solve: Text | None = None  # for a quantity: the path whose number is solved ...
+    between: Numbers | None = None  # ... between these two
+    membrane: Text | None = None  # whose pop is judged; default: the first
+    judged: Literal["drop", "peak", "roughness"] = "drop"  # what a simulated observer judges
+    scale: Literal["linear", "log"] = "linear"  # of the levels, in the fit
+    solver: Text | None = None  # of the scene's [servo], in the intervals with the level ...
+    reference_solver: Text | None = None  # ... and in the others
+
+
+class TrialsTable(Table):
+    """How many trials, and in which order."""
+
+    per_level: WholeNumber | None = None  # of constant stimuli
+    total: WholeNumber | None = None  # of a staircase and QUEST+
+    blocks: WholeNumber = 1
+    practice: WholeNumber = 0  # before the first block, at the easiest level; not analysed
+    catch: WholeNumber = 0  # in each block, at catch_level
+    catch_level: Number | None = None  # yes_no: without what is asked for; otherwise so clear that nobody errs
+    up: WholeNumber = 3  # steps of a staircase after a wrong answer
+    down: WholeNumber = 1  # and after a right one: it stays where up/(up + down) of the answers are right
+    break_s: Number | None = None  # after each block
+    interval_s: Number | None = None  # time for one stroke on a device
+
+
+class ProtocolFile(Table):
+    """A protocol: what is shown, what is asked, and in which order."""
+
+    title: Text
+    question: Text  # asked after each trial
+    instruction: Text = ""  # shown at the start
+    consent: Text = ""  # the participant agrees to it before the first trial
+    source: Text = ""  # of the numbers
+    scene: Text  # a ready scene, or the path of a scene file relative to this file
+    method: Method
+    task: Task
+    seed: WholeNumber = 0
+    stimulus: StimulusTable
+    trials: TrialsTable = TrialsTable()
+    answers: dict[str, Text] = Field(default_factory=dict)  # the key of each answer
+    values: dict[str, Number] = Field(default_factory=dict)  # numbers of the scene in all intervals
+
+
+SCHEMA = Schema(
+    ProtocolFile,
+    {"stimulus": StimulusTable, "trials": TrialsTable, "answers": ProtocolFile, "values": ProtocolFile},
+)
+
+
+@dataclass(frozen=True)
+class Stimulus:
+    """One interval: a level, its scene, and what a hand without tremor feels of it."""
+
+    level: float
+    scene: Scene
+    felt: Felt
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """A checked protocol, as `load_protocol` returns it. SI."""
+
+    path: Path
+    file: ProtocolFile
+    stimuli: tuple[Stimulus, ...]  # one a level, from the lowest to the highest
+    references: tuple[Stimulus, ...]  # for each level the other intervals; empty for yes_no
+    catch: Stimulus | None
+    membrane: int  # the judged one
+    unit: str  # of the levels
+
+    @property
+    def name(self) -> str:
+        """Name of the file without its suffix."""
+        return self.path.stem
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        return tuple(one.level for one in self.stimuli)
+
+    @property
+    def intervals(self) -> int:
+        """The number of intervals of a trial."""
+        return {"two_intervals": 2, "three_intervals": 3, "yes_no": 1}[self.file.task]
+
+    @property
+    def reference(self) -> float | None:
+        """The level of the other intervals; None if they have the level of the trial, or there are none."""
+        return None if self.file.stimulus.reference is None else float(self.file.stimulus.reference)
+
+    @property
+    def answers(self) -> dict[str, str]:
+        """The key of each answer, in the order of the task."""
+        return {name: self.file.answers.get(name, _KEYS[name]) for name in ANSWERS[self.file.task]}
+
+    @property
+    def in_newtons(self) -> bool:
+        """Whether the variable is a felt quantity."""
+        return self.file.stimulus.variable in QUANTITIES
+
+    @property
+    def quantity(self) -> str:
+        """The attribute of Felt in which the stimuli differ: the variable itself, or what is judged."""
+        return QUANTITIES.get(self.file.stimulus.variable, self.file.stimulus.judged)
+
+    @property
+    def compares(self) -> bool:
+        """Whether the answer that counts is "the comparison", not a right one: levels on both sides of a reference."""
+        reference = self.reference
+        return (
+            self.file.task == "two_intervals"
+            and reference is not None
+            and min(self.levels) < reference < max(self.levels)
+        )
+
+    @property
+    def rises(self) -> bool:
+        """Whether the judged quantity grows with the level."""
+        first, last = (getattr(self.stimuli[i].felt, self.file.stimulus.judged) for i in (0, -1))
+        return bool(last >= first)
+
+    @property
+    def shape(self) -> Shape:
+        """Of the psychometric function."""
+        if self.file.task == "yes_no" or self.compares:
+            floor = self.file.task == "yes_no"
+            return Shape(0.5, rises=self.rises, log=self.file.stimulus.scale == "log", floor=floor)
+        grows = self.difference(len(self.stimuli) - 1) >= self.difference(0) or self.reference is not None
+        return Shape(1 / self.intervals, one_sided=True, rises=grows, reference=self.no_difference)
+
+    @property
+    def no_difference(self) -> float:
+        """The level at which the intervals do not differ; 0 if they differ in the solver."""
+        return self.reference or 0.0
+
+    @property
+    def easiest(self) -> int:
+        """The index of the level that is told best."""
+        if self.file.task == "yes_no":
+            return len(self.stimuli) - 1 if self.rises else 0
+        return max(range(len(self.stimuli)), key=lambda i: self.difference(i))
+
+    def difference(self, i: int) -> float:
+        """How much of the judged quantity level i differs by from its reference."""
+        judged = self.file.stimulus.judged
+        other = getattr(self.references[i].felt, judged) if self.references else 0.0
+        return abs(float(getattr(self.stimuli[i].felt, judged)) - float(other))
+
+    @property
+    def digest(self) -> str:
+        """What the order of the trials and the stimuli depend on."""
+        text = repr((self.file.model_dump(exclude={"title", "source"}), [one.scene for one in self.stimuli]))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]

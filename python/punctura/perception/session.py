@@ -1,0 +1,208 @@
+"""A participant's session on disk: one line of JSON for each answered trial, before the next one begins."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import asdict
+from datetime import datetime, timezone
+from pathlib import Path
+from types import TracebackType
+
+from punctura import PuncturaError, __version__
+from punctura.files.whole_file import private, private_folder
+from punctura.perception.course import Course, Trial
+from punctura.perception.protocol import Protocol
+from punctura.perception.stimulus import Felt
+from punctura.record.new_file import lock
+from punctura.results import JsonObject
+
+_PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
+SUFFIX = ".jsonl"
+MOST_BYTES = 50_000_000
+
+
+class SessionError(PuncturaError):
+    """A session cannot begin or go on; the text says why and what to do."""
+
+
+class DiskFullError(SessionError):
+    """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
+
+
+class Session:
+    """Trials of one participant. A session that was interrupted goes on with the trial after the last whole line.
+
+    with Session(protocol, folder, "P01") as session:
+        while trial := session.next():
+            ...
+            session.add(trial, "first", felt)
+    """
+
+    def __init__(self, protocol: Protocol, folder: Path, participant: str, consent: bool = False) -> None:
+        """Raises SessionError for a wrong pseudonym, another protocol, or a file that another process uses."""
+        if not _PSEUDONYM.fullmatch(participant):
+            raise SessionError(
+                f"{participant!r} is no pseudonym: give letters, digits, - and _, at most 40, such as P01; no name"
+            )
+        if protocol.file.consent and not consent:
+            raise SessionError("the participant has not agreed to the text of the protocol's key consent")
+        self.path = folder / f"{participant}{SUFFIX}"
+        private_folder(folder)
+        before = set(sessions(folder))
+        self._descriptor = private(str(self.path), os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0))
+        try:
+            if lock(self._descriptor) is False:
+                raise SessionError(f"{self.path}: another program runs this participant's session")
+            lines = self._whole_lines()
+            if not lines:
+                header = _header(protocol, participant, _free_number(before - {self.path}))
+                self._append(header)
+                lines = [header]
+            self.header = lines[0]
+            check_header(self.header, protocol, self.path)
+            self.course = Course(protocol, int(self.header["number"]))
+            for line in lines[1:]:
+                self._repeat(line)
+        except BaseException:
+            os.close(self._descriptor)
+            raise
+        self.kept = self.course.at  # trials from before
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        os.close(self._descriptor)
+
+    def next(self) -> Trial | None:
+        """The next trial; None after the last one."""
+        return self.course.next()
+
+    def add(self, trial: Trial, answer: str, felt: Sequence[Felt], recordings: Sequence[str] = ()) -> None:
+        """Writes the answer to `next` to the disk, and only then goes on. Raises DiskFullError, OSError."""
+        line = {
+            "trial": trial.number,
+            "block": trial.block,
+            "kind": trial.kind,
+            "level": trial.shown.level,
+            "position": trial.position,
+            "answer": answer,
+            "felt": [asdict(one) for one in felt],
+            "recordings": list(recordings),
+            "time": _now(),
+        }
+        self._append(line)
+        self.course.add(trial, answer)
+
+    def _append(self, line: JsonObject) -> None:
+        size = os.lseek(self._descriptor, 0, os.SEEK_END)
+        data = (json.dumps(line, ensure_ascii=False) + "\n").encode()
+        try:
+            while data:
+                data = data[os.write(self._descriptor, data) :]
+            os.fsync(self._descriptor)
+        except OSError as bad:
+            os.ftruncate(self._descriptor, size)
+            if bad.errno in (errno.ENOSPC, errno.EDQUOT):
+                raise DiskFullError(
+                    f"{self.path}: the disk is full, and this answer is not saved: free some space, then go on"
+                ) from None
+            raise
+
+    def _whole_lines(self) -> list[JsonObject]:
+        """The lines of the file. What a kill left of a last one is cut off."""
+        if os.fstat(self._descriptor).st_size > MOST_BYTES:
+            raise SessionError(f"{self.path} is too large for a session")
+        with open(self._descriptor, "rb", closefd=False) as file:
+            data = file.read()
+        whole = data[: data.rfind(b"\n") + 1]
+        lines = parsed(whole, self.path)  # before the file is changed, which may be no session
+        os.ftruncate(self._descriptor, len(whole))
+        return lines
+
+    def _repeat(self, line: JsonObject) -> None:
+        trial = self.course.next()
+        if trial is None or (line["trial"], line["level"], line["position"]) != (
+            trial.number, trial.shown.level, trial.position,
+        ):  # fmt: skip
+            raise SessionError(
+                f"{self.path}: trial {line['trial']} is not the one that this version of Punctura would show; the "
+                f"session began with {self.header['version']}: go on with that version"
+            )
+        self.course.add(trial, str(line["answer"]))
+
+
+def check_header(header: JsonObject, protocol: Protocol, path: Path) -> None:
+    """Raises SessionError if a session is not one of this protocol."""
+    for key, wanted in (("protocol", protocol.name), ("digest", protocol.digest)):
+        if header.get(key) != wanted:
+            raise SessionError(
+                f"{path} is a session of another protocol or of a changed one ({key} {header.get(key)!r}, now "
+                f"{wanted!r}): give the same protocol again, or another folder"
+            )
+
+
+def sessions(folder: Path) -> list[Path]:
+    """The files of all sessions of a folder, by pseudonym."""
+    return sorted(path for path in folder.glob(f"*{SUFFIX}") if _PSEUDONYM.fullmatch(path.stem))
+
+
+def read_session(path: Path) -> list[JsonObject]:
+    """The header of a session and its trials, without a last line that is not whole. Raises SessionError, OSError."""
+    data = path.read_bytes()
+    return parsed(data[: data.rfind(b"\n") + 1], path)
+
+
+def parsed(data: bytes, path: Path) -> list[JsonObject]:
+    """The lines of a session's file. Raises SessionError for any other file."""
+    lines: list[JsonObject] = []
+    for number, text in enumerate(data.splitlines(), 1):
+        try:
+            line = json.loads(text)
+        except ValueError:
+            line = None
+        wanted = {"participant", "number", "digest", "version"} if number == 1 else {"trial", "level", "answer", "felt"}
+        if not isinstance(line, dict) or not wanted <= line.keys():
+            raise SessionError(f"{path}, line {number}: is no line of a session; restore the file from a copy")
+        lines.append(line)
+    return lines
+
+
+def delete_participant(folder: Path, participant: str) -> list[Path]:
+    """Deletes all that the folder has of a participant; returns the paths. Raises SessionError if there is nothing."""
+    path = folder / f"{participant}{SUFFIX}"
+    if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
+        raise SessionError(f"{folder} has no participant {participant!r}")
+    names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
+    found = [file for name in sorted(names) if Path(name).name == name and (file := folder / name).is_file()]
+    for file in [*found, path]:
+        file.unlink()
+    return [*found, path]
+
+
+def _header(protocol: Protocol, participant: str, number: int) -> JsonObject:
+    return {
+        "protocol": protocol.name,
+        "digest": protocol.digest,
+        "participant": participant,
+        "number": number,
+        "version": __version__,
+        "began": _now(),
+        "consent": bool(protocol.file.consent),
+    }
+
+
+def _free_number(paths: set[Path]) -> int:
+    """The smallest number that no session has: it decides the participant's order."""
+    used = {int(lines[0]["number"]) for path in paths if (lines := read_session(path))}
+    return next(number for number in range(len(used) + 1) if number not in used)
+
+
+def _now() -> str:
+    return datetime.now(timezone.utc).isoformat(timespec="milliseconds")

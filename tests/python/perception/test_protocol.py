@@ -1,0 +1,103 @@
+"""Protocol files: what is wrong is said at once, with its place, before a person sits down."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from protocols import COMPARES, RIGHT, YES, written
+from punctura import ConfigurationError
+from punctura._core import ForceLimits
+from punctura.perception import load_protocol, protocol_names
+from punctura.perception.course import Course
+from punctura.perception.stimulus import simulated
+from punctura.perception.terminal import check_device
+
+SOLVED = """
+title = "Solved"
+question = "Which one fell more?"
+scene = "k06-fig10"
+method = "constant"
+task = "two_intervals"
+[stimulus]
+variable = "drop_N"
+levels = [0.25, 0.3, 0.35]
+reference = 0.3
+solve = "membrane[0].precompression"
+between = [0.0, 1.5]
+[trials]
+per_level = 20
+"""
+
+
+def problems(folder: Path, text: str) -> dict[str, str]:
+    with pytest.raises(ConfigurationError) as found:
+        load_protocol(written(folder, text))
+    return {problem.path: problem.reason for problem in found.value.problems}
+
+
+def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
+    text = (
+        COMPARES.replace('"membrane[0].precompression"', '"membrane[0].precompresion"')
+        .replace("per_level = 20", "per_level = 2\ncatch = 3")
+        .replace("[trials]", '[answers]\nfirst = "a"\nsecond = "A"\n[trials]')
+    )
+    found = problems(tmp_path, text)
+    assert found.keys() == {"answers.second", "trials.per_level", "trials.catch_level", "stimulus.variable"}
+    assert "is the key of first, too" in found["answers.second"]
+    assert found["trials.per_level"].startswith("12 trials are too few for the fit")
+    assert "did you mean membrane[0].precompression?" in found["stimulus.variable"]
+
+
+@pytest.mark.parametrize(
+    ("base", "old", "new", "path", "words"),
+    [
+        (COMPARES, "reference = 0.41", "", "stimulus.reference", "needs a reference"),
+        (YES, "[trials]", "reference = 1\n[trials]", "stimulus.reference", "is not for yes_no"),
+        (COMPARES, '"constant"', '"staircase"', "trials.per_level", "give total"),
+        (COMPARES, "blocks = 2", "blocks = 3", "trials.blocks", "must divide per_level"),
+        (COMPARES, "[trials]", "[trials]\nbreak_s = nan", "trials.break_s", "more than 0"),
+        (RIGHT.replace('"quest"', '"staircase"'), "[trials]", "[trials]\nup = 1", "trials.up", "guessing gives"),
+        (COMPARES, "levels = [0.2,", "levels = [0.9,", "stimulus.levels", "larger than the one before"),
+        (COMPARES, "levels = [0.2,", "levels = [nan,", "stimulus.levels", "larger than the one before"),
+        (YES, "levels = [0.0002,", "levels = [-0.0002,", "stimulus.levels[0]", "must be"),
+        (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
+        (SOLVED, "0.35]", "2.5]", "stimulus.levels[2]", "no scene gives 2.5 N"),
+        (SOLVED, "between = [0.0, 1.5]", "", "stimulus.between", "is missing"),
+        (SOLVED, "between = [0.0, 1.5]", "between = [1.5, 0]", "stimulus.between", "the smaller one first"),
+        (COMPARES, "[trials]", 'membrane = "skin"\n[trials]', "stimulus.membrane", "thin membrane"),
+        (COMPARES, '"k06-fig10"', '"no-such.toml"', "scene", "no such file"),
+        (COMPARES, '"k06-fig10"', '"epidural"', "scene: display.force_scale", "each level has another scale"),
+    ],
+)  # fmt: skip
+def test_a_problem_has_its_place_and_its_remedy(
+    tmp_path: Path, base: str, old: str, new: str, path: str, words: str
+) -> None:
+    found = problems(tmp_path, base.replace(old, new).replace("[trials]\n[trials]", "[trials]"))
+    assert words in found[path]
+
+
+def test_a_variable_that_changes_nothing_is_refused(tmp_path: Path) -> None:
+    text = COMPARES.replace("membrane[0].precompression", "membrane[0].point[2]")
+    assert "no level changes the drop" in problems(tmp_path, text)["stimulus.levels"]
+
+
+def test_a_wanted_drop_is_what_a_hand_feels(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, SOLVED))
+    for one in protocol.stimuli:
+        assert simulated(one.scene, protocol.membrane).drop == pytest.approx(one.level, rel=0.02)
+
+
+def test_a_device_that_cannot_show_a_level_is_refused(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, COMPARES + '[values]\n"display.force_scale" = 0.8\n'))
+    check_device(protocol, ForceLimits())
+    with pytest.raises(ConfigurationError, match=r"levels\[5\] = 0\.62: needs 0\.\d\d N, and this device gives"):
+        check_device(protocol, ForceLimits(max_force=0.8, continuous_force=0.8))
+
+
+@pytest.mark.parametrize("name", protocol_names())
+def test_the_ready_protocols_are_sound(name: str) -> None:
+    protocol = load_protocol(name)
+    assert protocol.file.source and protocol.file.consent and protocol.file.instruction
+    assert len(Course(protocol, 0)) >= 40
+    check_device(protocol, ForceLimits())

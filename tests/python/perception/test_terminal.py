@@ -1,0 +1,172 @@
+"""A session in a terminal: stimuli on a live simulated device, answers by keys, and the verbs."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+from protocols import COMPARES, YES, written
+from punctura import Scene
+from punctura._core import Device, ForceLimits, SimulatedDevice, Strokes
+from punctura.cli import main
+from punctura.live import RunLimits, stroke_ends
+from punctura.perception import DiskFullError, Session, load_protocol, read_session
+from punctura.perception.report import write_report
+from punctura.perception.table import DICTIONARY
+from punctura.perception.terminal import Terminal, run_session
+from punctura.record import open_recording
+
+SCALED = '[values]\n"display.force_scale" = 0.8\n'
+
+
+def hand(scene: Scene, share: float = 1.0) -> Device:
+    """A device whose hand makes one stroke, as fast as it can. share: of the way."""
+    start, end = stroke_ends(scene)
+    end = tuple(a + share * (b - a) for a, b in zip(start, end, strict=True))
+    motion = Strokes(start, end, count=1, duration=0.8, rest=0.6)
+    return SimulatedDevice(
+        motion, rate=scene.servo.rate, real_time=False, ticks=2600, axis=scene.membranes[0].inward_normal
+    )
+
+
+class Person:
+    """Types its lines one after the other, and keeps what it reads."""
+
+    def __init__(self, typed: list[str], open_device: Callable[[Scene], Device] = hand) -> None:
+        self.read: list[str] = []
+        self._typed: Iterator[str] = iter(typed)
+        self.terminal = Terminal(self.read.append, self._ask, open_device)
+
+    def _ask(self, text: str) -> str:
+        self.read.append(text)
+        typed = next(self._typed, None)
+        if typed is None:
+            raise EOFError
+        return typed
+
+
+def test_a_session_by_keys_is_recorded_and_goes_on(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, 'consent = "I agree."\n' + COMPARES + SCALED))
+    person = Person(["yes", "x", "2", "1"])
+    with pytest.raises(EOFError):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    assert any("Type one of the keys 1, 2" in line for line in person.read)
+    header, first, second = read_session(tmp_path / "out" / "P01.jsonl")
+    assert header["consent"] and (first["answer"], second["answer"]) == ("second", "first")
+    assert len(first["felt"]) == len(first["recordings"]) == 2
+    levels = [protocol.reference, protocol.reference]
+    levels[first["position"]] = first["level"]
+    for level, felt, name in zip(levels, first["felt"], first["recordings"], strict=True):
+        assert felt["scale"] == 0.8 and felt["pops"] == 1
+        opened = open_recording(tmp_path / "out" / name)
+        assert opened.info.scene.membranes[0].membrane.precompression == level
+    more, less = (0, 1) if levels[0] > levels[1] else (1, 0)  # the first level is not the reference
+    assert first["felt"][more]["drop"] > first["felt"][less]["drop"] + 0.01
+    again = Person(["yes", "1"])
+    with pytest.raises(EOFError):
+        run_session(protocol, tmp_path / "out", "P01", again.terminal)
+    assert any(line.startswith("2 of 120 trials are done") for line in again.read)
+    assert [line["trial"] for line in read_session(tmp_path / "out" / "P01.jsonl")[1:]] == [0, 1, 2]
+
+
+def test_no_consent_no_session(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, 'consent = "I agree."\n' + COMPARES + SCALED))
+    with pytest.raises(Exception, match="has not agreed"):
+        run_session(protocol, tmp_path / "out", "P01", Person(["no"]).terminal)
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_interval_that_was_not_explored_is_repeated(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, YES + SCALED))
+    shares = iter([0.6, 1.0, 1.0])
+    person = Person(["y"], lambda scene: hand(scene, next(shares)))
+    with pytest.raises((EOFError, StopIteration)):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    (repeated,) = [line for line in person.read if line.startswith("The trial is repeated")]
+    assert "did not go through the thin membrane" in repeated
+    lines = read_session(tmp_path / "out" / "P01.jsonl")[1:]
+    assert len(lines) == 1 and len(lines[0]["recordings"]) == 1
+
+
+def test_a_force_that_a_limit_cut_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    protocol = load_protocol(written(tmp_path, YES + SCALED))
+    monkeypatch.setattr("punctura.perception.terminal.check_device", lambda *_: None)
+    person = Person([])
+    devices = iter([hand])
+    person.terminal = person.terminal._replace(
+        limits=RunLimits(ForceLimits(max_force=0.2)), open_device=lambda scene: next(devices)(scene)
+    )
+    with pytest.raises(StopIteration):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    assert any("repeated: the force was cut by the peak limit" in line for line in person.read)
+    assert not list((tmp_path / "out").glob("*.parquet"))
+
+
+def test_a_full_disk_asks_before_it_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    protocol = load_protocol(written(tmp_path, YES + SCALED))
+    add, full = Session.add, [True]
+
+    def once(self: Session, *given: object) -> None:
+        if full.pop():
+            full.append(False)
+            raise DiskFullError("the disk is full")
+        full.append(False)
+        add(self, *given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Session, "add", once)
+    person = Person(["y", ""])
+    with pytest.raises(EOFError):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    assert "the disk is full. Press Enter to save it again: " in person.read
+    assert len(read_session(tmp_path / "out" / "P01.jsonl")) == 2
+
+
+def call(capsys: pytest.CaptureFixture[str], *words: object) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as end:
+        main(["perception", *map(str, words)])
+    done = capsys.readouterr()
+    return int(end.value.code or 0), done.out, done.err
+
+
+def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = written(tmp_path, YES)
+    status, out, _ = call(capsys, "check", file, "--json")
+    checked = json.loads(out)
+    assert status == 0 and checked["trials"] == 152 and checked["unit"] == "m"
+    drops = [level["drop"] for level in checked["levels"]]
+    assert drops == sorted(drops, reverse=True)
+    status, out, err = call(capsys, "simulate", file, "--people", 2, "--noise", 0.03, "--json")
+    found = json.loads(out)
+    assert status == 0, err
+    assert [one["trials"] for one in found["people"]] == [120, 120]
+    folder = tmp_path / "mine.perception"
+    again = json.loads(call(capsys, "analyse", file, "--json")[1])
+    assert again == found == json.loads((folder / "results.json").read_text())
+    table = pq.read_table(folder / "trials.parquet")
+    assert table.column_names == [name for name, *_ in DICTIONARY] and table.num_rows == 304
+    with (folder / "trials.csv").open() as opened:
+        rows = list(csv.DictReader(opened))
+    assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
+    report = (folder / "report.md").read_text()
+    assert "| O01 | 120 |" in report and "false alarms" in report and (folder / "functions.svg").exists()
+    status, out, _ = call(capsys, "delete", file, "O01")
+    assert status == 0 and out.count("deleted") == 7
+    assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
+    status, _, err = call(capsys, "analyse", file, "--out", tmp_path / "none")
+    assert status == 1 and "has no session" in err
+    changed = written(tmp_path, YES.replace("seed = 4", "seed = 5"))
+    status, _, err = call(capsys, "analyse", changed)
+    assert status == 1 and "another protocol or of a changed one" in err
+
+
+def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, YES))
+    with Session(protocol, tmp_path, "P01") as session:
+        header = session.header
+    found = write_report(protocol, {"P01": [header]}, tmp_path / "report")
+    assert found.people[0].reason.startswith("0 answers are too few")
+    assert "| P01 | 0 | 0 answers" in (tmp_path / "report" / "report.md").read_text()
