@@ -107,6 +107,17 @@ def test_a_wrong_angle_does_not_pass(name, tilt):
     assert any(remark.about == "angle" for remark in made.coaching.change)
 
 
+@pytest.mark.parametrize("name", ["vein-15", "venipuncture", "vein-45"])
+def test_a_point_that_slides_out_of_the_side_of_the_vein_does_not_pass(name):
+    columns = run(name, HONEST[name])
+    holds = np.arange(len(columns["tick"])) / 1600 - (WAIT[0] + HONEST[name][0][0] + HONEST[name][1][0])
+    slide = np.clip(holds, 0, 4)[:, None] * [0, 0, 2e-3]
+    made = result(name, columns | {"tip": columns["tip"] + slide})
+    assert not made.passed
+    assert made.reasons[0] == "In the vein, the point went more than 1.5 mm beside the middle line."
+    assert any("then moved more than 1.5 mm to the side" in remark.text for remark in made.coaching.change)
+
+
 def test_a_needle_that_is_not_moved_aside_misses_the_rolling_vein():
     made = result("rolling-vein", run("rolling-vein", HONEST["rolling-vein"], aside=False))
     assert not made.passed and made.reasons[0] == "The point came into the vein 4.0 mm beside the middle line."

@@ -63,6 +63,7 @@ class LineJudge(LimitJudge):
         super().__init__(goal.text or f"Keep the point within {goal.within_mm:g} mm of the middle line")
         self.within = goal.within_mm * 1e-3
         self.farthest: float | None = None  # m, to the side; up to the first miss
+        self._entered = 0.0  # m, to the side, as the point came into the space
         self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
         self.aim: float | None = None  # m to the side, where the needle points at the line's depth in the last tick
         self._normal = np.asarray(scene.membranes[0].inward_normal) / np.linalg.norm(scene.membranes[0].inward_normal)
@@ -88,7 +89,8 @@ class LineJudge(LimitJudge):
         here = ticks.in_space[:, 0] & np.isfinite(aside)
         if self.missed is not None or not here.any():
             return
-        self._first = self._first or first_of(ticks, here)
+        if self._first is None:
+            self._first, self._entered = first_of(ticks, here), float(aside[here.argmax()])
         off = here & (aside > self.within)
         self._miss(ticks, off)
         until = here & (np.arange(len(ticks)) <= (int(off.argmax()) if off.any() else len(ticks)))
@@ -98,7 +100,9 @@ class LineJudge(LimitJudge):
         return by(self._first, until) and super().measured(until)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
-        return f"The point came into {space.name} {tenths((self.farthest or 0.0) * 1e3)} mm beside the middle line."
+        if self._entered > self.within:
+            return f"The point came into {space.name} {tenths(self._entered * 1e3)} mm beside the middle line."
+        return f"In {space.name}, the point went more than {mm(self.within)} beside the middle line."
 
     def never_measured(self, first: str) -> str:
         return f"Not measured: “{self.text}”, because the point was never in the space."
@@ -112,11 +116,17 @@ class LineJudge(LimitJudge):
         return f"Move the needle {half_mm:g} mm {self.way}, until it points at the line. Then push in."
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
-        beside = self.farthest or 0.0
-        text = (
-            f"The point was {mm(beside)} beside the middle line when it came into {seen.space.name}; "
-            f"{mm(self.within)} are allowed: move the needle sideways before you enter, until it points at the line."
-        )
+        beside, allowed, space = self.farthest or 0.0, mm(self.within), seen.space.name
+        if self._entered > self.within:
+            text = (
+                f"The point was {mm(beside)} beside the middle line when it came into {space}; {allowed} are allowed: "
+                "move the needle sideways before you enter, until it points at the line."
+            )
+        else:
+            text = (
+                f"You came into {space} on its middle line, then moved more than {allowed} to the side: "
+                "hold the needle still until the end."
+            )
         yield Remark(about="line", text=text, numbers={"beside_m": beside, "allowed_m": self.within})
 
     def praise(self, seen: Seen) -> Iterator[Remark]:
