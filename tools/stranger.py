@@ -29,7 +29,7 @@ STEP_S = 1 / 30  # between two positions of the mouse
 SIZE = {"width": 1440, "height": 900}
 
 SENTENCE = re.compile("push until it gives")
-GAVE = re.compile(r"It gave: the (?:model )?force fell by [0-9.]+ N")
+GAVE = re.compile(r"It gave: the (?:model |felt )?force fell by [0-9.]+ N")
 OUT = "the needle is out"
 
 

@@ -25,6 +25,22 @@ def shown(browser: Browser, epidural: StudioProcess) -> Iterator[Page]:
         yield page
 
 
+APART = """() => {
+  const [thumb, curve] = [".thumb-button", ".stage-curve"].map((at) => document.querySelector(at));
+  const [a, b] = [thumb.getBoundingClientRect(), curve.getBoundingClientRect()];
+  return a.width > 0 && b.width > 0 && (a.top >= b.bottom || a.bottom <= b.top);
+}"""
+
+
+def test_on_the_stage_of_a_phone_the_button_for_the_thumb_covers_no_curve(shown: Page) -> None:
+    shown.keyboard.press("Alt+b")
+    shown.set_viewport_size({"width": 390, "height": 844})
+    shown.wait_for_function(APART)
+    shown.set_viewport_size({"width": 1440, "height": 900})
+    shown.keyboard.press("Alt+b")
+    expect(shown.locator(".view-main .thumb-button")).to_be_visible()
+
+
 # Grey values of the slice's picture at a grid of places.
 BRIGHTNESS = """() => {
     const canvas = document.querySelector(".slice canvas"), draw = canvas.getContext("2d");

@@ -38,7 +38,7 @@ def test_the_tour_goes_on_as_its_things_are_done_and_the_pop_is_shown_again_slow
     expect(sentence).to_be_visible()
     expect(page.locator(".header")).to_contain_text("Force on")
     drag_in(page, pops=1)
-    expect(tour).to_contain_text(re.compile("It gave: the (model )?force fell by"))
+    expect(tour).to_contain_text(re.compile("It gave: the (model |felt )?force fell by"))
     expect(sentence).to_be_hidden()
     drag_out(page, tour.get_by_text("the needle is out"))
 

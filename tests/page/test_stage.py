@@ -18,14 +18,15 @@ NEEDLE_WHOLE = """() => {
   const [left, top, right, bottom] = document.querySelector(".view canvas").dataset.needle.split(" ").map(Number);
   return left >= 0 && top >= 0 && right <= 1 && bottom <= 1 && right - left + bottom - top > 0.1;
 }"""
-# The rows of the curve's picture in which its line, the darkest thing there, is drawn.
+# The rows of the curve's picture in which its line, the darkest thing there, is drawn to the right of the names.
 ROWS = """() => {
   const canvas = document.querySelector(".stage-curve canvas");
   const {width, height} = canvas;
   const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
   const rows = new Set();
   for (let i = 0; i < data.length; i += 4)
-    if (data[i + 3] > 200 && data[i] + data[i + 1] + data[i + 2] < 180) rows.add(Math.floor(i / 4 / width));
+    if ((i / 4) % width > 0.35 * width && data[i + 3] > 200 && data[i] + data[i + 1] + data[i + 2] < 180)
+      rows.add(Math.floor(i / 4 / width));
   return rows.size;
 }"""
 
@@ -43,6 +44,11 @@ def page(browser, studio):
         yield page
 
 
+def push_step(page: Page) -> None:
+    page.keyboard.press("Shift+ArrowDown")
+    page.wait_for_timeout(50)
+
+
 def marks(page: Page):
     return page.locator(".stage-marks button")
 
@@ -50,8 +56,7 @@ def marks(page: Page):
 def push_to_a_pop(page: Page) -> None:
     view(page).focus()
     for _ in range(200):
-        page.keyboard.press("Shift+ArrowDown")
-        page.wait_for_timeout(50)
+        push_step(page)
         if marks(page).count():
             break
     expect(marks(page)).not_to_have_count(0)
@@ -73,18 +78,31 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     before = page.evaluate(ROWS)
     push_to_a_pop(page)
     expect(sentence).to_contain_text("It gave")
-    page.wait_for_function(f"() => ({ROWS})() > {before} + 20")
+    page.wait_for_function(f"() => ({ROWS})() > {before} + 10")
     pushed = page.evaluate(ROWS)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     none_found(page, "the stage after a pop")
     marks(page).first.click()
     expect(sentence).to_have_text("The pop of the skin, slowly.")
+    replay = page.get_by_role("group", name="Replay")
+    expect(replay.get_by_role("button")).to_have_count(1)  # plays and pauses; the way back is the stage's "Go on"
+    expect(replay.get_by_role("button", name="Play")).to_be_visible()
     page.get_by_role("button", name="Go on").click()
+    expect(replay).to_be_hidden()
     expect(marks(page)).not_to_have_count(0)
     page.get_by_role("button", name="Again", exact=True).click()
     expect(marks(page)).to_have_count(0)
     expect(sentence).to_contain_text("the needle is out")
     page.wait_for_function(f"() => ({ROWS})() < ({before} + {pushed}) / 2")  # what is left is the way out, in air
+
+
+def test_words_and_no_frame_tell_that_the_keys_move_the_needle(page):
+    keys = page.get_by_text("move the needle.")
+    expect(keys).to_be_hidden()
+    page.keyboard.press("Tab")
+    expect(view(page)).to_be_focused()
+    expect(keys).to_be_visible()
+    expect(view(page)).to_have_css("outline-style", "none")
 
 
 def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
@@ -93,8 +111,7 @@ def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
     page.keyboard.press("Home")
     expect(sentence).to_contain_text("the needle is out")
     for _ in range(200):
-        page.keyboard.press("Shift+ArrowDown")
-        page.wait_for_timeout(50)
+        push_step(page)
         if "is out" not in (sentence.text_content() or ""):
             break
     expect(sentence).to_contain_text("The tip is in the")

@@ -9,6 +9,8 @@ const CLOSEST_MM = 4;
 const FARTHEST_MM = 900;
 /** Below this sine of the angle between view and plane, the camera sees the plane from its edge. */
 const EDGE = 0.15;
+/** Share of the view: where its free part ends before it, something stands to the right of that. */
+const BESIDE = 0.9;
 const STEEPEST = MathUtils.degToRad(89.5);
 
 interface Pose {
@@ -76,8 +78,8 @@ export class OrbitCamera {
   }
 
   /**
-   * Moves so that all points (mm) are as large as possible in the free part of the view. A zoom chosen by the user
-   * stays.
+   * Moves so that all points (mm) are as large as possible in the free part of the view, and beside what stands to the
+   * right of it. A zoom chosen by the user stays.
    */
   enclose(points: readonly Vector3[], free: Free): void {
     if (!this.fitted || points.length === 0) return;
@@ -88,12 +90,13 @@ export class OrbitCamera {
     const right = new Vector3(Math.cos(goal.azimuth), 0, -Math.sin(goal.azimuth));
     const up = new Vector3().crossVectors(back, right);
     // In each of two directions the camera sees p between two lines: low * (c.z - p.z) <= p.x - c.x <= high * (...).
-    const between = (axis: Vector3, low: number, high: number): { away: number; middle(away: number): number } => {
+    const between = (axis: Vector3, low: number, high: number) => {
       const most = Math.max(...points.map((p) => p.dot(axis) + high * p.dot(back)));
       const least = Math.min(...points.map((p) => p.dot(axis) + low * p.dot(back)));
       return {
         away: (most - least) / (high - low),
-        middle: (away) => (most - high * away + least - low * away) / 2,
+        last: (away: number): number => most - high * away,
+        middle: (away: number): number => (most - high * away + least - low * away) / 2,
       };
     };
     const x = between(right, (2 * free.left - 1) * wide, (2 * free.right - 1) * wide);
@@ -103,7 +106,7 @@ export class OrbitCamera {
     goal.target
       .copy(back)
       .multiplyScalar(away - goal.distance)
-      .addScaledVector(right, x.middle(away))
+      .addScaledVector(right, free.right < BESIDE ? x.last(away) : x.middle(away))
       .addScaledVector(up, y.middle(away));
     if (this.resized) this.settle();
     this.resized = false;

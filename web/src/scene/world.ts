@@ -28,7 +28,7 @@ import type { Theme } from "./theme.ts";
 import { Trail } from "./trail.ts";
 
 const ACTIVE = codeOf("state", "active");
-const REST_MM = 5; // in front of the skin, where a run begins
+const BEFORE_MM = 3; // in front of the skin: so far out, the needle is always in the picture
 const BELOW_MM = 3; // drawn depth below the last of the sheets
 const LEAST_HEIGHT_PX = 40; // of the tissue, for a scale of depths beside it
 
@@ -168,7 +168,7 @@ export class World {
     const { point, normal } = surfaceOf(scene);
     const inwards = Math.max(0.2, moment.axis.dot(normal));
     const depth = moment.tip.clone().sub(point).dot(normal);
-    const before = moment.tip.clone().addScaledVector(moment.axis, -Math.max(0, depth + REST_MM) / inwards);
+    const before = moment.tip.clone().addScaledVector(moment.axis, -Math.max(0, depth + BEFORE_MM) / inwards);
     return [
       ...(this.block.shown ? this.block.corners() : sheetCorners(point, normal, extent)),
       moment.tip,

@@ -9,10 +9,10 @@ import type { Band } from "../tissue/bands.ts";
 import type { Attempt, Felt } from "./attempt.ts";
 
 const AXIS = 34; // px, of the numbers of the depth
-const TOP = 34; // px, of the numbers of the force
+const TOP = 2.6; // widths of a letter: the name and the numbers of the force
 const EDGE = 10; // px
 const PULL = 0.3; // of the greatest force: room for a force that pulls
-const GAP = 14; // px between two names
+const MARKS = 8; // widths of a letter: the room for the buttons, right of the greatest force
 
 /** What the curve shows at present. */
 interface Shown {
@@ -31,13 +31,14 @@ export class CurvePicture {
   /** For buttons at the pops; placed with `place`. */
   readonly marks = element("div", { class: "stage-marks" });
   private readonly canvas = element("canvas", { "aria-hidden": "true" });
-  private readonly head = element("span", { class: "stage-head", "aria-hidden": "true" }, "felt force");
+  private readonly head = element("span", { class: "stage-head", "aria-hidden": "true" });
   private readonly pen: CanvasPen;
   private readonly force = new Scale();
   private readonly piece = new Polyline(64);
   private theme: Theme | null = null;
   private width = 0;
   private height = 0;
+  private letter = 13; // px
   private changes = 0;
   private drawn = "";
   private points = 0; // of the attempt that are drawn
@@ -57,6 +58,7 @@ export class CurvePicture {
   private fit(): void {
     this.width = this.root.clientWidth;
     this.height = this.root.clientHeight;
+    this.letter = Number.parseFloat(getComputedStyle(this.root).fontSize) || this.letter;
     this.canvas.width = Math.max(1, Math.round(this.width * devicePixelRatio));
     this.canvas.height = Math.max(1, Math.round(this.height * devicePixelRatio));
     this.changes++;
@@ -69,7 +71,9 @@ export class CurvePicture {
     const { attempt, bands, beside } = shown;
     while (this.most < shown.most) this.most = Math.max(shown.most, 1.3 * this.most);
     const scale = beside ? [beside.top, beside.scale.px(0), beside.scale.px(beside.scale.deep)] : [];
-    const state = [this.changes, attempt.generation, this.most, bands.length, bands.at(-1)?.bottom, ...scale].join(" ");
+    const { generation, pops } = attempt;
+    const named = [bands.length, bands.at(-1)?.bottom];
+    const state = [this.changes, generation, pops.length, this.most, ...named, ...scale].join(" ");
     const anew = state !== this.drawn;
     if (anew) {
       this.drawn = state;
@@ -89,33 +93,42 @@ export class CurvePicture {
     this.most = 0;
   }
 
-  /** Puts buttons at places of the curve, force in N and depth in mm, but none over another. */
+  /**
+   * Puts buttons in a column on the right, none over another, each with a line to its place on the curve: force in N,
+   * depth in mm.
+   */
   place(buttons: readonly { readonly button: HTMLElement; readonly force: number; readonly depth: number }[]): void {
+    const { pen, theme } = this;
+    if (!theme) return;
     const high = Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
+    const colour = colourOf(theme, 1);
     const middles = apart(
       buttons.map(({ depth }) => this.depth(depth)),
       high + 2,
       this.height - high / 2,
     );
-    buttons.forEach(({ button, force }, i) => {
-      const x = Math.max(AXIS, Math.min(this.force.px(force), this.width - EDGE - button.offsetWidth));
-      button.style.transform = `translate(${x.toFixed(0)}px, ${(middles[i]! - high / 2).toFixed(0)}px)`;
+    buttons.forEach(({ button, force, depth }, i) => {
+      const left = this.width - EDGE - button.offsetWidth;
+      const [x, y] = [this.force.px(force), this.depth(depth)];
+      pen.segment(x, y, left, middles[i]!, { colour, width: 1.5 });
+      pen.dot(x, y, 4, colour, theme.panel);
+      button.style.transform = `translate(${left.toFixed(0)}px, ${(middles[i]! - high / 2).toFixed(0)}px)`;
     });
   }
 
   private arrange({ bands, beside }: Shown): void {
-    this.force.set(-PULL * this.most, this.most, AXIS, this.width - EDGE);
+    this.force.set(-PULL * this.most, this.most, AXIS, this.width - EDGE - MARKS * this.letter);
     if (beside) {
       this.depth = (mm) => beside.scale.px(mm) - beside.top;
       return;
     }
     const deep = bands.at(-1)?.bottom ?? 10;
-    const from = TOP + 0.08 * (this.height - TOP);
+    const from = (TOP + 2) * this.letter;
     this.depth = (mm) => from + (mm / deep) * (this.height - EDGE - from);
   }
 
   private drawBands(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, depth, height } = this;
+    const { pen, width, depth, height, letter } = this;
     const named = bands.filter(({ name }) => name !== "");
     for (const { tone, membrane, top, bottom } of bands) {
       const high = Math.max(2, depth(bottom) - depth(top));
@@ -129,33 +142,36 @@ export class CurvePicture {
     const lowest = height - EDGE;
     const middles = apart(
       named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2))),
-      GAP,
+      letter + 1,
       lowest,
     );
+    // On the left, where only a force that pulls is drawn.
     named.forEach(({ name }, i) => {
-      pen.text(width - EDGE / 2, middles[i]!, name, { colour: theme.text, size: 12, anchor: "end", halo: theme.panel });
+      pen.text(AXIS + 6, middles[i]!, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
     });
   }
 
   private drawAxes(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, height, force, depth } = this;
+    const { pen, width, height, force, depth, letter } = this;
     const deep = bands.at(-1)?.bottom ?? 10;
-    const quiet = { colour: theme.quiet, size: 12 } as const;
+    const quiet = { colour: theme.quiet, size: letter - 1 } as const;
     const skin = depth(0);
-    const axis = Math.max(TOP, Math.min(skin - 26, height)); // the numbers of the force stand above the skin
+    const end = Math.min(height, depth(deep));
+    // The numbers of the force stand above the skin.
+    const axis = Math.max(TOP * letter, Math.min(skin - 2 * letter, height));
     const step = niceStep(force.max - force.min, Math.max(2, width / 80));
     for (const value of ticks(force.min, force.max, step)) {
       const x = Math.round(force.px(value)) + 0.5;
       const strong = Math.abs(value) < step / 2;
-      pen.segment(x, axis, x, height, {
+      pen.segment(x, axis, x, end, {
         colour: strong ? theme.quiet : theme.line,
         width: 1,
         alpha: strong ? 0.9 : 0.7,
       });
-      if (x < width - 14) pen.text(x, axis - 9, label(value, step), { ...quiet, anchor: "middle" });
+      if (x < width - 14) pen.text(x, axis - 0.7 * letter, label(value, step), { ...quiet, anchor: "middle" });
     }
-    pen.text(AXIS, axis - 25, "felt force, N", { ...quiet, colour: theme.text });
-    pen.text(AXIS - 7, skin - 14, "mm", { ...quiet, anchor: "end" });
+    pen.text(AXIS, axis - 2 * letter, "felt force, N", { ...quiet, colour: theme.text });
+    pen.text(2, skin - letter, "depth, mm", { ...quiet, colour: theme.text, halo: theme.panel });
     const down = niceStep(deep, Math.max(2, (depth(deep) - skin) / 44));
     for (const value of ticks(0, deep, down)) {
       const y = Math.round(depth(value)) + 0.5;

@@ -5,7 +5,7 @@ import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import { type DepthScale, type Free, framingOf } from "../scene/framing.ts";
 import type { App } from "../state/app.ts";
 import { pageOf, show } from "../state/page.ts";
-import { dropText, feltForce, scaleOf } from "../state/scale.ts";
+import { feltDropText, feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { type Band, bandsOf } from "../tissue/bands.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
@@ -42,7 +42,9 @@ export const stage: Panel = (root, app) => {
     framing.again.value++;
   });
   const more = button("More", "The bench: every plot, table and setting (Alt+B)", () => show(page, "bench"));
-  const buttons = element("div", { class: "stage-buttons", role: "group", "aria-label": "Stage" }, hold, again, more);
+  const keys = element("span", { class: "stage-keys" }, "The keys ↓ and ↑ move the needle.");
+  const group = element("div", { role: "group", "aria-label": "Stage" }, hold, again, more);
+  const buttons = element("div", { class: "stage-buttons" }, group, keys);
   const box = element(
     "section",
     { class: "stage", "aria-label": "Stage" },
@@ -60,8 +62,12 @@ export const stage: Panel = (root, app) => {
   };
   new ResizeObserver(measure).observe(free);
   new ResizeObserver(measure).observe(view);
+  const thumb = view.querySelector<HTMLElement>(".thumb-button")!;
+  const thumbHome = thumb.parentElement!;
   page.watch((now) => {
     box.hidden = now !== "stage";
+    if (now === "stage") group.after(thumb);
+    else thumbHome.append(thumb);
     measure();
   });
   document.addEventListener("keydown", (event) => {
@@ -87,6 +93,8 @@ export const stage: Panel = (root, app) => {
     if (built !== scene) {
       scene = built;
       bands = built ? bandsOf(built) : [];
+      // An upright needle leaves room beside it; one that lies at a small angle, as for a vein, does not.
+      root.style.setProperty("--curve-wider", built?.lumen.length ? "0px" : "16%");
     }
     const tick = source.value.shown();
     const now = built && tick !== null ? feltAt(source.value.history, built, tick) : null;
@@ -177,7 +185,7 @@ class Marks {
   }
 
   private add(event: MembraneEvent, source: Source): HTMLElement {
-    const drop = dropText(source.history, event);
+    const drop = feltDropText(source.history, event);
     const button = element(
       "button",
       {

@@ -1,3 +1,4 @@
+import { newton } from "../format.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import type { History } from "./history.ts";
 import type { Source } from "./source.ts";
@@ -45,6 +46,31 @@ export function fallenForce(history: History, tick: number): "force" | typeof MO
   return felt ? "force" : MODEL_FORCE;
 }
 
+/** The drop of the felt force at a pop, N: the model's times the force scale; null if a limit cut it, or if unknown. */
+function feltDrop(history: History, { tick, drop }: MembraneEvent): number | null {
+  if (tick <= history.first || tick >= history.end) return null;
+  const scale = feltShare(history, tick - 1);
+  const felt = [tick - 1, tick].every((at) => {
+    const model = sizeOf(history, "model_force", at);
+    return Math.abs(sizeOf(history, "force", at) - scale * model) <= EQUAL * model;
+  });
+  return scale > 0 && felt ? scale * Math.abs(drop) : null;
+}
+
 /** The drop of the model's force at a pop: "−0.79 N", or "model force −0.79 N" if the hand did not feel all of it. */
 export const dropText = (history: History, { tick, drop }: MembraneEvent): string =>
   `${fallenForce(history, tick) === MODEL_FORCE ? `${MODEL_FORCE} ` : ""}−${Math.abs(drop).toFixed(2)} N`;
+
+/** The drop at a pop for a learner: of the felt force, or "model force −0.79 N" where that is not known. */
+export function feltDropText(history: History, event: MembraneEvent): string {
+  const felt = feltDrop(history, event);
+  return felt === null ? dropText(history, event) : `−${newton(felt)}`;
+}
+
+/** The same in a sentence: "force fell by 0.32 N", "felt force fell ..." if the hand did not get all of it. */
+export function fallOf(history: History, event: MembraneEvent): string {
+  const felt = feltDrop(history, event);
+  const name = fallenForce(history, event.tick);
+  const words = felt !== null && name === MODEL_FORCE ? "felt force" : name;
+  return `${words} fell by ${newton(felt ?? Math.abs(event.drop))}`;
+}

@@ -25,6 +25,7 @@ it.each([0.4, 1, 2.4])("all points are in the free part of the view, and fill it
   expect(bottom).toBeLessThan(FREE.bottom + 1e-3);
   const fills = [(right - left) / (FREE.right - FREE.left), (bottom - top) / (FREE.bottom - FREE.top)];
   expect(Math.max(...fills)).toBeGreaterThan(0.97);
+  expect(right).toBeGreaterThan(FREE.right - 1e-2); // beside the curve
 });
 
 it("a scale of depths is exact for a line in perspective", () => {

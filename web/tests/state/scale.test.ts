@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { popLabel } from "../../src/plots/marks.ts";
 import { cutFigures } from "../../src/state/limits.ts";
-import { fallenForce, feltForce, feltShare, scaleOf, scaleText } from "../../src/state/scale.ts";
+import { fallenForce, fallOf, feltDropText, feltForce, feltShare, scaleOf, scaleText } from "../../src/state/scale.ts";
 import { Source } from "../../src/state/source.ts";
 import type { MembraneEvent, SceneView } from "../../src/wire/messages.ts";
 import { batch } from "../support/fill_history.ts";
@@ -53,6 +53,16 @@ describe("the force scale", () => {
     expect(fallenForce(history, 10)).toBe("model force"); // not kept
     expect(popLabel({ tick: 3, drop: 0.5 } as MembraneEvent, history)).toBe("pop −0.50 N");
     expect(popLabel({ tick: 7, drop: 0.5 } as MembraneEvent, history)).toBe("pop, model force −0.50 N");
+  });
+  it("gives the drop that is felt, unless a limit cut it", () => {
+    const pop = (tick: number): MembraneEvent => ({ tick, drop: 2 }) as MembraneEvent;
+    const { history } = source();
+    expect([4, 5, 10].map((tick) => feltDropText(history, pop(tick)))).toEqual([
+      "−0.60 N", "model force −2.00 N", "model force −2.00 N",
+    ]); // biome-ignore format: a list
+    expect([4, 5].map((tick) => fallOf(history, pop(tick)))).toEqual([
+      "felt force fell by 0.60 N", "model force fell by 2.00 N",
+    ]); // biome-ignore format: a list
   });
   it("is no cut: a cut tells the felt force, and what it would be without the limit", () => {
     expect(cutFigures(source().history, 9)).toBe("0.45 of 0.60 N");

@@ -78,6 +78,7 @@ function keys(app: App): void {
   const all = arrangementsOf(app);
   document.addEventListener("keydown", (event) => {
     if (event.altKey && !event.ctrlKey && event.code === "KeyP") {
+      if (pageOf(app).value === "stage") return; // which is for a projector already
       event.preventDefault();
       all.set({ projector: !all.now.value.projector });
     } else if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) {

@@ -20,6 +20,7 @@ export const playerBar: Panel = (host, app) => {
     close = (): void => {};
     host.replaceChildren();
     host.hidden = source.live;
+    host.dataset.of = source.excerpt ? "excerpt" : source.paused ? "pause" : "recording";
     document.documentElement.classList.toggle("replaying", !source.live);
     const scene = source.scene.value; // a recording has one from the start
     if (!source.live && scene) close = fill(host, app, source, scene.rate, from);
@@ -36,6 +37,7 @@ function fill(host: HTMLElement, app: App, source: Source, rate: number, from: n
 
   const button = (label: string, words: string, act: () => void): HTMLButtonElement =>
     element("button", { type: "button", class: "small", title: words, "aria-label": words, onclick: act }, label);
+  const step: typeof button = (...words) => Object.assign(button(...words), { className: "small step" });
   const play = button("▶", "Play (space)", () => {
     used = true;
     if (playback.playing) playback.pause();
@@ -101,11 +103,11 @@ function fill(host: HTMLElement, app: App, source: Source, rate: number, from: n
     element(
       "div",
       { class: "transport", role: "group", "aria-label": "Replay" },
-      button("⇤", "Previous event", () => go(playback.neighbour(events(), -1))),
-      button("‹", "Back one tick (left arrow)", stepped(-1)),
+      step("⇤", "Previous event", () => go(playback.neighbour(events(), -1))),
+      step("‹", "Back one tick (left arrow)", stepped(-1)),
       play,
-      button("›", "Forward one tick (right arrow)", stepped(1)),
-      button("⇥", "Next event", () => go(playback.neighbour(events(), 1))),
+      step("›", "Forward one tick (right arrow)", stepped(1)),
+      step("⇥", "Next event", () => go(playback.neighbour(events(), 1))),
     ),
     element("div", { class: "track" }, marks, track),
     time,

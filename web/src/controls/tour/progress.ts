@@ -1,4 +1,4 @@
-import { fallenForce, MODEL_FORCE } from "../../state/scale.ts";
+import { fallOf } from "../../state/scale.ts";
 import type { Source } from "../../state/source.ts";
 import type { MembraneEvent } from "../../wire/messages.ts";
 import { codeOf } from "../../wire/ticks.ts";
@@ -16,8 +16,8 @@ export class Progress {
   done = 0;
   /** The pop that was made; null before it. */
   pop: MembraneEvent | null = null;
-  /** The force that fell at this pop. */
-  fallen: ReturnType<typeof fallenForce> = MODEL_FORCE;
+  /** The force that fell at this pop: "force fell by 0.32 N". */
+  fall = "";
   /** Whether the tip has been outside the tissue since the tour began: a needle in tissue must come out first. */
   ready = false;
   /** Whether the tip is in tissue now. */
@@ -50,7 +50,7 @@ export class Progress {
     this.next = history.end;
     if (!this.pop) {
       this.pop = events.value.find(({ what, tick }) => what === "pop" && tick >= this.began) ?? null;
-      if (this.pop) this.fallen = fallenForce(history, this.pop.tick);
+      if (this.pop) this.fall = fallOf(history, this.pop);
     }
     if (this.pop && this.ready && this.done < 3) this.done = 3;
     return this.state !== before;

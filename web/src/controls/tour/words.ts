@@ -1,4 +1,3 @@
-import { newton } from "../../format.ts";
 import type { Progress } from "./progress.ts";
 
 /** The names of the four things to do. */
@@ -9,7 +8,7 @@ export const NAMES = ["Touch", "Feel it hold", "Pop", "Draw back"] as const;
  * device.
  */
 export function instruction(progress: Progress, skin: string, mouse: boolean): string {
-  const { done, ready, inside, pop, fallen } = progress;
+  const { done, ready, inside, fall } = progress;
   if (!ready) return "First draw the needle out of the tissue.";
   if (!inside && done < 3) {
     return mouse
@@ -20,5 +19,5 @@ export function instruction(progress: Progress, skin: string, mouse: boolean): s
   if (done === 2) return "Push until it gives.";
   if (inside && done > 3) return "The needle is in the tissue again.";
   if (!inside) return "That is all: the needle is out. The tab Exercises of the bench has tasks that get harder.";
-  return `It gave: the ${fallen} fell by ${newton(Math.abs(pop?.drop ?? 0))}. Now draw the needle all the way out.`;
+  return `It gave: the ${fall}. Now draw the needle all the way out.`;
 }

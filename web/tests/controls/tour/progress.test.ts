@@ -41,7 +41,7 @@ it("each thing to do is done when the ticks show it", () => {
   expect(progress.done).toBe(2);
   pop();
   ticks(5, true, 0.4);
-  expect([progress.done, progress.pop?.drop, progress.fallen]).toEqual([3, 0.6, "force"]);
+  expect([progress.done, progress.fall]).toEqual([3, "force fell by 0.60 N"]);
   ticks(5, true, 0.2);
   expect(progress.done).toBe(3);
   ticks(1, false);
