@@ -2,7 +2,7 @@
 
 import pytest
 from axe import AXE, none_found
-from person import opened, view
+from person import opened, tab, view, whole_at
 from playwright.sync_api import Page, expect
 from studio_process import StudioProcess
 
@@ -115,6 +115,27 @@ def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
         if "is out" not in (sentence.text_content() or ""):
             break
     expect(sentence).to_contain_text("The tip is in the")
+
+
+def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
+    page.get_by_role("button", name="More").click()
+    tab(page, "Exercises")
+    card = page.locator("article.exercise", has_text="Steady push")
+    card.get_by_role("button", name="Start").click()
+    expect(page.locator(".stage-sentence")).to_contain_text("Push straight down")
+    running = page.locator(".running")
+    expect(running.locator(".instruction")).to_be_hidden()  # it is said once
+    expect(view(page)).to_be_focused()
+    for size in SIZES:
+        whole_at(page, size, running.get_by_role("timer"), running.get_by_role("button", name="End"))
+        page.wait_for_function(WORDS_WHOLE)
+        page.wait_for_function(NEEDLE_WHOLE)
+    expect(running.get_by_text("Stay behind the membrane")).to_be_hidden()  # a phone has no room for what is to come
+    page.set_viewport_size({"width": 1440, "height": 900})
+    expect(running.get_by_text("Stay behind the membrane")).to_be_visible()
+    running.get_by_role("button", name="End").click()
+    expect(running).to_be_hidden()
+    expect(page.locator(".stage-number")).to_be_visible()
 
 
 def test_the_bench_is_one_click_or_one_key_away_and_is_remembered(page):

@@ -1,6 +1,7 @@
 import { tellAwake } from "../hand/awake.ts";
 import { element, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
+import { backToStage, pageOf } from "../state/page.ts";
 import { resultPath } from "../wire/api.ts";
 import type { ExerciseOverview, ProblemPart, Result } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
@@ -33,6 +34,7 @@ export const exercisesPanel: Panel = (host, app) => {
       person: person.name.value,
       group: person.group.value,
     });
+    if (reply?.ok) backToStage(pageOf(app));
     if (reply && !reply.ok && reply.problems.length)
       app.notify(`${titleOf(name)} cannot start: ${reply.problems.map(sentence).join(" ")}`);
     await readList(); // an exercise file may have changed

@@ -33,13 +33,14 @@ export class GoalMark {
     });
   }
 
-  /** size: half the side of the drawn tissue, mm. */
-  show(goal: Goal | null, scene: SceneView | null, size: number): void {
+  /** size: half the side of the drawn tissue, mm. deepest: its bottom, mm below the first surface. */
+  show(goal: Goal | null, scene: SceneView | null, size: number, deepest = Number.POSITIVE_INFINITY): void {
     const first = scene?.membranes[0];
     this.group.visible = goal !== null && first !== undefined;
     if (!goal || !first) return;
     const normal = new Vector3(...first.inward_normal);
-    const [top, bottom] = bandOf(goal);
+    const [top, end] = bandOf(goal);
+    const bottom = Math.max(top + 0.1, Math.min(end, deepest));
     const side = 2 * SHARE * size;
     this.band.position
       .set(...first.point)

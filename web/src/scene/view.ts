@@ -3,6 +3,7 @@ import { thumbOf } from "../hand/thumb.ts";
 import { thumbInView } from "../hand/thumb_button.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { showLastAgain } from "../pop/again.ts";
+import { asTissue } from "../tissue/layers.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { poseBeside } from "./expert.ts";
@@ -110,7 +111,7 @@ export const view: Panel = (host, app) => {
   let placed = true; // with the place of the needle, which the first tick tells
   const build = (scene: SceneView): void => {
     built = scene;
-    if (!world.build(scene)) return;
+    if (!world.build(framing.free.value ? asTissue(scene) : scene)) return;
     placed = false;
     settle();
   };
@@ -124,6 +125,7 @@ export const view: Panel = (host, app) => {
   framing.free.watch((free) => {
     const turns = world.nameless !== (free !== null);
     world.nameless = free !== null;
+    if (turns) built = null; // the stage draws sheets as tissue
     if (turns) settle();
     stage.stale = true;
   });

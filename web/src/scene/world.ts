@@ -95,7 +95,8 @@ export class World {
   /** Shows what an exercise asks to reach. */
   aim(goal: Goal | null): void {
     this.goal = goal;
-    this.mark.show(goal, this.scene, this.extent?.size ?? 1);
+    const deepest = this.block.shown ? this.block.bottom : Number.POSITIVE_INFINITY;
+    this.mark.show(goal, this.scene, this.extent?.size ?? 1, deepest);
     this.stage.stale = true;
   }
 

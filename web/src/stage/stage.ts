@@ -8,6 +8,7 @@ import { pageOf, show } from "../state/page.ts";
 import { feltDropText, feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { type Band, bandsOf } from "../tissue/bands.ts";
+import { asTissue } from "../tissue/layers.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
 import { Attempt, feltAt } from "./attempt.ts";
 import { CurvePicture } from "./curve.ts";
@@ -92,7 +93,7 @@ export const stage: Panel = (root, app) => {
     const built = source.value.scene.value;
     if (built !== scene) {
       scene = built;
-      bands = built ? bandsOf(built) : [];
+      bands = built ? bandsOf(asTissue(built)) : [];
       // An upright needle leaves room beside it; one that lies at a small angle, as for a vein, does not.
       root.style.setProperty("--curve-wider", built?.lumen.length ? "0px" : "16%");
     }

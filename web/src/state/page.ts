@@ -6,15 +6,22 @@ import { Signal } from "./signal.ts";
 type Page = "stage" | "bench";
 
 const KEY = "page";
+const visited = new WeakSet<Signal<Page>>(); // that have shown the stage
 
 /** Which of the two is shown; the browser remembers it. The style sheets read it as `data-page` of the root element. */
 export const pageOf = onePerApp(() => {
   const page = new Signal<Page>(remembered(KEY) === "bench" ? "bench" : "stage");
   page.watch((now) => {
     document.documentElement.dataset.page = now;
+    if (now === "stage") visited.add(page);
   });
   return page;
 });
+
+/** Shows the stage, if it was shown before in this visit: somebody came from it to the bench to choose something. */
+export function backToStage(page: Signal<Page>): void {
+  if (visited.has(page)) show(page, "stage");
+}
 
 export function show(page: Signal<Page>, wanted: Page): void {
   page.value = wanted;

@@ -36,6 +36,19 @@ export function layersOf(scene: Pick<SceneView, "membranes">): Layer[] | null {
   return stackOf(scene);
 }
 
+const tissues = new WeakMap<SceneView, SceneView>();
+
+/** The same scene with sheets drawn as tissue; the same object for the same scene. */
+export function asTissue(scene: SceneView): SceneView {
+  if (scene.membranes.some(({ look }) => look !== "plain")) return scene;
+  const made = tissues.get(scene) ?? {
+    ...scene,
+    membranes: scene.membranes.map((membrane) => ({ ...membrane, look: "fascia" as const })),
+  };
+  tissues.set(scene, made);
+  return made;
+}
+
 /** The layers by the depths of their front faces along the first membrane's normal, also of sheets. */
 export function stackOf({ membranes }: Pick<SceneView, "membranes">): Layer[] {
   const first = membranes[0];

@@ -21,6 +21,8 @@ test("the band lies between the goal's depths, below the first surface", () => {
   expect(mark.group.visible).toBe(true);
   expect(band.position.toArray()).toEqual([0, 1 - 6.5, 0]);
   expect(new Vector3(0, 1, 0).multiply(band.scale).applyQuaternion(band.quaternion).length()).toBeCloseTo(3);
+  mark.show({ name: "a", top: 0.005, bottom: 0.012, line: null }, scene, 10, 7);
+  expect(band.position.toArray()).toEqual([0, 1 - 6, 0]); // it ends with the drawn tissue
   mark.show(null, scene, 10);
   expect(mark.group.visible).toBe(false);
 });
