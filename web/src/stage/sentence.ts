@@ -7,6 +7,10 @@ import { remember, remembered } from "../state/remembered.ts";
 import { type Band, bandAt } from "../tissue/bands.ts";
 import type { Felt } from "./attempt.ts";
 
+/** Of a page that looks on, as on a projector, while the tip is outside the tissue. */
+const ANOTHER = "Another page moves the needle.";
+const NOBODY = "Nobody moves the needle. To move it here, press More and then Take control.";
+
 /** The one sentence of the stage: what is, or what to do next, as the needle is now. */
 export class Sentence {
   private readonly progress = new Progress();
@@ -27,9 +31,12 @@ export class Sentence {
     if (excerpt) return excerpt.event ? `The pop of the ${excerpt.event.name}, slowly.` : "The moment, slowly.";
     if (paused) return "Paused; the run goes on.";
     if (!live) return `Replay of ${title}`;
-    const barred = handOf(app).barred.value;
-    if (simulated && barred) return barred;
+    const barred = simulated ? handOf(app).barred.value : null;
+    const { you, holder } = app.control.value;
+    const watches = barred !== null && !you && app.connection.value.state === "open";
+    if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
+    if (watches) return place(bands, now) || (holder === null ? NOBODY : ANOTHER);
     if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }
