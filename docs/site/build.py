@@ -15,6 +15,7 @@ import check
 import cpp_reference
 import gallery
 import pages
+import studio_style
 from layout import ROOT, SITE, lay_out
 from sphinx.cmd.build import main as sphinx
 
@@ -36,6 +37,7 @@ def main() -> int:
         write(source / "reference" / "cpp" / name, text)
     write(source / "reference" / "command-line.md", pages.command_line_page())
     write(source / "reference" / "scene-keys.md", pages.scene_keys_page())
+    write(source / "reference" / "studio-style.md", studio_style.page())
     gallery.write(source / "gallery")
     code = sphinx(
         [

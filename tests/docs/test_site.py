@@ -7,12 +7,25 @@ import check
 import cpp_reference
 import gallery
 import pytest
+import studio_style
 import text
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = dict(cpp_reference.pages())
+TOKENS = (ROOT / "web/src/styles/tokens.css").read_text(encoding="utf-8")
 INTERNAL = re.compile(r"namespace (?:punctura::)?detail \{.*?\}  // namespace (?:punctura::)?detail", re.S)
 PAGE = '<html><body id="top">{}</body></html>'
+
+
+def test_the_page_of_the_studios_style_shows_every_name_of_the_style_sheet_once():
+    page = studio_style.page()
+    names = re.findall(r"^ *--([\w-]+):", TOKENS, re.M)
+    assert len(names) > 20
+    for name in names:
+        assert page.count(f"`--{name}`") == 1, f"{name}: give it its use as a comment behind it"
+    for colour in re.findall(r"#[0-9a-f]{6}", TOKENS):
+        assert f"background:{colour}" in page
+    assert "font-size:clamp(40px, 11vmin, 132px)" in page
 
 
 def site(folder: Path, **pages: str) -> list[str]:
