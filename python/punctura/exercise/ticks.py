@@ -191,6 +191,18 @@ def _wide(column: NDArray[Any], m: int, none: float) -> NDArray[Any]:
     return np.concatenate([column, np.full(shape, none, dtype=column.dtype)], axis=1)
 
 
+def judged_depth(scene: Scene, geometry: Geometry, ticks: JudgedTicks, before: int) -> Numbers:
+    """Depth of the point below the first surface, m, (n,), as judged for the space behind membrane `before`.
+
+    It is behind a membrane's far face exactly where the model has the point behind it. The membranes are parallel.
+    """
+    first = np.asarray(scene.membranes[0].point)
+    tops = np.array([(np.asarray(placed.point) - first) @ geometry.normals[0] for placed in scene.membranes])
+    at = tops + ticks.below
+    depth = np.fmin(at[:, before], np.fmin.reduce(np.where(ticks.past > 0, np.nan, at), axis=1))
+    return np.fmax(depth, np.fmax.reduce(np.where(ticks.past > 0, tops + geometry.thickness, np.nan), axis=1))
+
+
 class Moment(NamedTuple):
     tick: int
     time: float  # s

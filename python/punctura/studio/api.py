@@ -99,12 +99,16 @@ class Api:
         asked = request.query_params
         try:
             start, points = float(asked.get("from", "0")), int(asked.get("points", str(USUAL)))
+            before = int(asked["before"]) if "before" in asked else None
         except ValueError:
-            start, points = math.nan, 0
-        if not (math.isfinite(start) and FEWEST <= points <= MOST):
-            return _sentence(400, f"from is a time in s, points a number from {FEWEST} to {MOST}.")
+            start, points, before = math.nan, 0, None
+        if not (math.isfinite(start) and FEWEST <= points <= MOST and (before is None or before >= 0)):
+            return _sentence(
+                400,
+                f"from is a time in s, points a number from {FEWEST} to {MOST}, before a membrane's index.",
+            )
         return json_of(
-            self._shelf.read(_name(request), lambda path: thinned_trace(open_recording(path), start, points))
+            self._shelf.read(_name(request), lambda path: thinned_trace(open_recording(path), start, points, before))
         )
 
     def delete(self, request: Request) -> Response:

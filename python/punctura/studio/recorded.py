@@ -16,6 +16,8 @@ from punctura.compare.run import resistance
 from punctura.errors import ConfigurationError
 from punctura.events import EventFinder, find_events
 from punctura.events.finder import recorded_ticks
+from punctura.exercise.depths import PARALLEL
+from punctura.exercise.ticks import Geometry, judged_depth
 from punctura.record import Recording
 from punctura.record.columns import ticks_of
 from punctura.studio.loaded import Loaded, from_tables, from_text
@@ -146,14 +148,19 @@ class RecordingTrace(Part):
     """A drawing of a recording. None: a gap."""
 
     time: list[Finite]  # s, of the run
-    depth: list[Finite | None]  # m, of the tip below the first surface
+    depth: list[Finite | None]  # m, of the point below the first surface
     force: list[Finite | None]  # N, size of the model's total force, negative if it pulls the needle in
+    tip: Finite  # m, how far the end of the slanted face is above the point, along the first membrane's normal
     membranes: list[MembraneView]
 
 
-def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL) -> RecordingTrace:
+def thinned_trace(
+    recording: Recording, start: float = 0.0, points: int = USUAL, before: int | None = None
+) -> RecordingTrace:
     """The trace from `start` (s of the run) on. The maximum of its force is an exercise's `peak_force`. Raises
     RecordingError.
+
+    before: the depth as it is judged in an exercise whose space is behind this membrane; else that of the device's tip.
 
     Each bucket of ticks keeps its first and last row, and those of the lowest and highest depth and force. A bucket
     ends at each of the first MOST_EVENTS events. A row of nulls breaks the curves at lost ticks.
@@ -163,12 +170,14 @@ def thinned_trace(recording: Recording, start: float = 0.0, points: int = USUAL)
     skipped = max(0.0, start * rate - float(recording.summary.first_tick))
     size = max(1, math.ceil(max(recording.rows - skipped, 1.0) * EACH / points))
     thin = _Thinner(size)
-    kept = [thin.add(*part) for part in _rows(recording, start)]
+    judge = _Judge(info.scene, before)
+    kept = [thin.add(*part) for part in _rows(recording, start, judge)]
     rows = np.concatenate([*kept, thin.end()])
     return RecordingTrace(
         time=rows[:, 0].round(5).tolist(),
         depth=_rounded(rows[:, 1], 7),
         force=_rounded(rows[:, 2], 5),
+        tip=judge.tip,
         membranes=membrane_views(info.scene),
     )
 
@@ -177,7 +186,7 @@ def _rounded(values: Array, digits: int) -> list[float | None]:
     return [None if np.isnan(v) else round(float(v), digits) for v in values]
 
 
-def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
+def _rows(recording: Recording, start: float, judge: _Judge) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
     """Batches (n, 3) of time, depth and force, and the rows that end a bucket: at and before an event, and at gaps."""
     scene = recording.info.scene
     finder = EventFinder(scene, scene.servo.rate)
@@ -189,7 +198,7 @@ def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArr
         found = [event.tick for event in finder.add(columns)][: MOST_EVENTS - events]
         events += len(found)
         tick = columns["tick"].astype(np.int64)
-        rows = np.stack([columns["time"].astype(np.float64), *_drawn(columns, scene)], axis=1)
+        rows = np.stack([columns["time"].astype(np.float64), *judge.drawn(columns)], axis=1)
         keep = np.isin(tick, found) | np.isin(tick + 1, found)
         gaps = np.flatnonzero(np.diff(tick, prepend=tick[0] - 1 if next_tick is None else next_tick - 1) != 1)
         next_tick = int(tick[-1]) + 1
@@ -200,12 +209,25 @@ def _rows(recording: Recording, start: float) -> Iterator[tuple[Array, npt.NDArr
             yield rows[late], keep[late]
 
 
-def _drawn(columns: Columns, scene: Scene) -> tuple[Array, Array]:
-    first = scene.membranes[0]
-    normal = np.asarray(first.inward_normal, np.float64)
-    normal = normal / np.linalg.norm(normal)
-    depth = (columns["tip"] - np.asarray(first.point)) @ normal
-    return depth, resistance(columns["model_force"], columns["axis"])
+class _Judge:
+    """Depth and force of ticks, for a drawing."""
+
+    def __init__(self, scene: Scene, before: int | None) -> None:
+        self._scene, self._geometry = scene, Geometry(scene)
+        parallel = (self._geometry.normals @ self._geometry.normals[0] > PARALLEL).all()
+        self._before = before if before is not None and before < len(scene.membranes) and parallel else None
+        self.tip = 0.0
+
+    def drawn(self, columns: Columns) -> tuple[Array, Array]:
+        geometry, force = self._geometry, resistance(columns["model_force"], columns["axis"])
+        if self._before is None:
+            return (columns["tip"] - np.asarray(self._scene.membranes[0].point)) @ geometry.normals[0], force
+        ticks = geometry.ticks(columns)
+        inside = ticks.inside[:, self._before]
+        if self.tip == 0.0 and inside.any():
+            row = int(inside.argmax())
+            self.tip = float(ticks.past[row, self._before] - ticks.tip_past[row, self._before])
+        return judged_depth(self._scene, geometry, ticks, self._before), force
 
 
 class _Thinner:

@@ -6,10 +6,11 @@ import numpy as np
 import punctura as pn
 import pytest
 from attempts import as_a_device_runs_it, motion_of
-from punctura._core import SimulatedDevice
+from punctura._core import SimulatedDevice, tip_length
 from punctura.events import find_events
 from punctura.events.finder import recorded_ticks
 from punctura.exercise import load_exercise, score
+from punctura.exercise.ticks import Geometry, judged_depth
 from punctura.record import open_recording
 from punctura.studio import recorded as trace
 from punctura.studio.recorded import MOST, thinned_trace
@@ -86,6 +87,27 @@ def test_the_drawing_may_begin_later_and_has_then_more_of_the_rest(minute):
     assert len(drawn(minute, start=1e9)[0]) == 0
 
 
+def test_the_judged_depth_is_behind_a_wall_when_the_verdict_has_the_point_there(minute):
+    exercise = load_exercise("venipuncture")
+    scene, before = exercise.scene, exercise.space[0]
+    geometry = Geometry(scene)
+    pushed = 0
+    for columns, _ in recorded_ticks(minute):
+        ticks = geometry.ticks(columns)
+        depth = judged_depth(scene, geometry, ticks, before)
+        tip = scene.membranes[0].point[1] - columns["tip"][:, 1]
+        for i, placed in enumerate(scene.membranes):
+            far = scene.membranes[0].point[1] - placed.point[1] + placed.membrane.thickness
+            passed = ticks.past[:, i] > 0
+            assert (depth[passed] >= far - 1e-12).all() and (depth[~passed] <= far + 1e-12).all()
+            pushed += int((tip[~passed] > far).sum())
+    assert pushed > 100  # ticks in which the device's tip is behind a wall that it only pushes ahead
+    told = thinned_trace(minute, before=before)
+    assert told.tip == pytest.approx(tip_length(scene.needle) * np.sin(np.radians(30)), rel=0.02)
+    assert told.depth != thinned_trace(minute).depth
+    assert thinned_trace(minute, before=99).depth == thinned_trace(minute).depth  # of an exercise in another scene
+
+
 def of_columns(monkeypatch, columns, **asked):
     """The trace of these columns instead of those of a recording."""
     monkeypatch.setattr(trace, "recorded_ticks", lambda recording: [(columns, None)])
@@ -135,6 +157,6 @@ def test_the_page_asks_for_it_by_name(served, page):
     assert page.ask(do="stop_recording")["ok"]
     told = page.json("/api/recordings/one/trace?points=60&from=0.1")
     assert told["time"][0] >= 0.1 and told["membranes"][0]["name"] == "first membrane"
-    for wrong in ("points=59", "points=3001", "points=x", "from=nan", "from=inf", "from=x"):
+    for wrong in ("points=59", "points=3001", "points=x", "from=nan", "from=inf", "from=x", "before=-1", "before=x"):
         assert page.get(f"/api/recordings/one/trace?{wrong}")[0] == 400
     assert page.get("/api/recordings/two/trace")[0] == 404

@@ -854,6 +854,7 @@ export interface RecordingTrace {
   time: number[];
   depth: (number | null)[];
   force: (number | null)[];
+  tip: number;
   membranes: MembraneView[];
 }
 /**

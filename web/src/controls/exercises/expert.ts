@@ -85,6 +85,10 @@ function tellProblems(app: App, reply: Reply | null): void {
   if (reply && !reply.ok && reply.problems.length) app.notify(reply.problems.map(({ reason }) => reason).join(" "));
 }
 
+/** Asks for the depth as the exercise judges it. */
+export const judgedBy = (exercise: Pick<ExerciseOverview, "space"> | null): string =>
+  exercise?.space[0] === undefined ? "" : `&before=${exercise.space[0]}`;
+
 /** The curves of the expert's run, in its own time; null without one, or for the expert's run itself. */
 export async function expertTrace(
   app: App,
@@ -94,7 +98,7 @@ export async function expertTrace(
 ): Promise<Trace | null> {
   if (!exercise?.expert || exercise.expert === recording) return null;
   try {
-    const answer = await app.api.get(`${recordingPath(exercise.expert)}/trace`, { signal });
+    const answer = await app.api.get(`${recordingPath(exercise.expert)}/trace?${judgedBy(exercise)}`, { signal });
     return traceOf((await answer.json()) as RecordingTrace);
   } catch {
     return null; // it was deleted

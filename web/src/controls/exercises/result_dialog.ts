@@ -8,7 +8,7 @@ import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
 import { coachPart } from "./coach.ts";
-import { expertButton, expertSource, expertTrace } from "./expert.ts";
+import { expertButton, expertSource, expertTrace, judgedBy } from "./expert.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
@@ -171,7 +171,7 @@ async function drawTrace(
   }
   place.append(element("span", { class: "quiet" }, "Loading the attempt…"));
   try {
-    const response = await app.api.get(tracePath(result), { signal });
+    const response = await app.api.get(`${tracePath(result)}${judgedBy(exercise)}`, { signal });
     const trace = (await response.json()) as RecordingTrace;
     const entries = await app.api.json<RecordingEntry[]>("/api/recordings");
     const layers = layersOf(trace.membranes);

@@ -1,10 +1,12 @@
 import type { ExerciseOverview, MembraneView, RecordingTrace } from "../../wire/messages.ts";
 
-/** The curves of an attempt: time (s), depth below the first surface (m) and force (N); NaN is a gap. */
+/** The curves of an attempt: time (s), depth of the point below the first surface (m), force (N); NaN is a gap. */
 export interface Trace {
   readonly time: Float64Array;
   readonly depth: Float64Array;
   readonly force: Float64Array;
+  /** How far the end of the slanted face is above the point, m; 0 if the depth is not the judged one. */
+  readonly tip: number;
 }
 
 /** A layer's top and bottom below the first surface, m. The bottom is infinite for a space without an end. */
@@ -17,10 +19,10 @@ export interface Layer {
 type Vector = ArrayLike<number>;
 const dot = (a: Vector, b: Vector): number => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
 
-export function traceOf({ time, depth, force }: RecordingTrace): Trace {
+export function traceOf({ time, depth, force, tip }: RecordingTrace): Trace {
   const numbers = (values: readonly (number | null)[]): Float64Array =>
     Float64Array.from(values, (value) => value ?? Number.NaN);
-  return { time: numbers(time), depth: numbers(depth), force: numbers(force) };
+  return { time: numbers(time), depth: numbers(depth), force: numbers(force), tip };
 }
 
 /** The membranes of a scene below its first surface. */

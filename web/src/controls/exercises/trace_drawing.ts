@@ -39,7 +39,10 @@ export function traceDrawing(
       "figcaption",
       { class: "quiet" },
       ...(expert ? ["Dashed: the expert’s run, from its first contact on. "] : []),
-      "This is the tip’s depth. Goals use the model’s depth: the tip pushes a wall ahead before it pierces it.",
+      trace.tip > 0
+        ? "The line is the depth of the point, the band above it the rest of the tip, as the goals judge them: " +
+            "a wall that the tip only pushes ahead is not passed."
+        : "This is the tip’s depth. Goals use the model’s depth: the tip pushes a wall ahead before it pierces it.",
     ),
   );
 }
@@ -90,6 +93,7 @@ function drawTrace(
     pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.line(path, stroke));
   };
   if (expert) drawExpert(pen, depth, force, expert, theme);
+  drawTip(pen, depth, trace, from, to, touch, theme);
   line(depth, trace.depth, MM, { colour: theme.text, width: 1.6 });
   line(force, trace.force, 1, { colour: colourOf(theme, 0), width: 1.6 });
   const peak = indexOfMost(trace.force, from, indexAt(trace.time, touch + result.metrics.total_time));
@@ -99,6 +103,19 @@ function drawTrace(
   const text = peakText(result);
   const left = Math.min(px + 7, width - textWidth(text));
   pen.text(left, py, text, { colour: colourOf(theme, 0), bold: true, halo: theme.panel });
+}
+
+/** From the end of the slanted face to the point: goals for the whole tip ask for all of it. */
+function drawTip(pen: Pen, pane: Pane, trace: Trace, from: number, to: number, touch: number, theme: Theme): void {
+  if (trace.tip === 0) return;
+  const area = new Polyline();
+  const add = (i: number, above: number): void => {
+    const y = pane.y.px(MM * (trace.depth[i]! - above));
+    if (Number.isFinite(y)) area.add(pane.x.px(trace.time[i]! - touch), y);
+  };
+  for (let i = from; i < to; i++) add(i, 0);
+  for (let i = to - 1; i >= from; i--) add(i, trace.tip);
+  pen.within(pane.left, pane.top, pane.width, pane.height, () => pen.area(area, theme.text, 0.16));
 }
 
 /** The drawing ends with the decision, as the measures do. */

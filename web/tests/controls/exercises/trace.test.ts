@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { judgedBy } from "../../../src/controls/exercises/expert.ts";
 import { tracePath } from "../../../src/controls/exercises/result_dialog.ts";
 import { indexAt, layersOf, spaceOf, traceOf } from "../../../src/controls/exercises/trace.ts";
 import type { SceneView } from "../../../src/wire/messages.ts";
@@ -7,7 +8,13 @@ import json from "../support/scene.json";
 const { membranes } = json as unknown as SceneView;
 
 test("a trace is the server's decimated curves; null is a gap", () => {
-  const { time, depth, force } = traceOf({ time: [1, 2, 3], depth: [0.1, null, 0.2], force: [5, null, 6], membranes });
+  const { time, depth, force } = traceOf({
+    time: [1, 2, 3],
+    depth: [0.1, null, 0.2],
+    force: [5, null, 6],
+    tip: 0,
+    membranes,
+  });
   expect([[...time], [...depth], [...force]]).toEqual([
     [1, 2, 3],
     [0.1, Number.NaN, 0.2],
@@ -19,6 +26,10 @@ test("the thinned trace is asked for, not all ticks, from a little before the fi
   const touch = { what: "touch", time: 3.25 } as never;
   expect(tracePath({ recording: "a b", events: [touch] })).toBe("/api/recordings/a%20b/trace?from=2.750");
   expect(tracePath({ recording: "x", events: [] })).toBe("/api/recordings/x/trace?from=0.000");
+});
+
+test("the depth of an exercise is asked for as it is judged", () => {
+  expect([judgedBy({ space: [1, 2] }), judgedBy({ space: [] }), judgedBy(null)]).toEqual(["&before=1", "", ""]);
 });
 
 test("layers are measured from the first surface, and the space lies between two of them", () => {
