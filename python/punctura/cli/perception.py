@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,7 +15,7 @@ from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
 if TYPE_CHECKING:
-    from punctura.perception import Analysis, Protocol
+    from punctura.perception import Analysis, Observer, Protocol
 
 command = typer.Typer(no_args_is_help=True, help="Psychophysics: asks people what they feel, and analyses the answers.")
 
@@ -25,12 +25,10 @@ Out = Annotated[
     typer.Option("--out", help="Folder of the sessions. Default: PROTOCOL with .perception.", metavar="FOLDER"),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
-Weber = Annotated[float, typer.Option(min=0, help="Noise of the observer, as a share of what is judged.")]
-Noise = Annotated[float, typer.Option(min=0, help="Noise of the observer that does not depend on it, N.")]
-Masking = Annotated[float, typer.Option(min=0, help="Noise of the observer, as a share of the largest force.")]
-Bias = Annotated[float, typer.Option(help="What the observer adds to the comparison, N.")]
-Lapse = Annotated[float, typer.Option(min=0, max=1, help="Share of answers by chance.")]
-Criterion = Annotated[float | None, typer.Option(help="From where the observer says yes, N.")]
+Observed = Annotated[
+    str,
+    typer.Option("--observer", help="Some of weber=0.1,noise=0.02,masking=0,bias=0,lapse=0.02,criterion=0.1."),
+]
 Seed = Annotated[int, typer.Option(min=0, help="Of the observers.")]
 
 
@@ -105,21 +103,16 @@ def simulate(
     protocol: File,
     out: Out = None,
     people: Annotated[int, typer.Option(min=1, max=1000, help="Number of observers.")] = 1,
-    weber: Weber = 0.1,
-    noise: Noise = 0.0,
-    masking: Masking = 0.0,
-    bias: Bias = 0.0,
-    lapse: Lapse = 0.02,
-    criterion: Criterion = None,
+    observer: Observed = "",
     seed: Seed = 0,
     as_json: Json = False,
 ) -> None:
     """Runs simulated observers O01, O02, ... through the protocol, and analyses their sessions."""
-    from punctura.perception import Observer, Simulation, load_protocol
+    from punctura.perception import Simulation, load_protocol
 
-    folder = _folder(protocol, out)
+    folder, judge = _folder(protocol, out), _observer(observer)
     loaded = load_protocol(protocol)
-    simulation = Simulation(loaded, Observer(weber, noise, masking, bias, lapse, criterion))
+    simulation = Simulation(loaded, judge)
     try:
         with progress_bar("observers") as progress:
             for i in range(people):
@@ -153,11 +146,11 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
 def _print(found: Analysis) -> None:
     from punctura.perception.report import words
 
-    for one in found.people:
-        text = one.reason or f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
-        typer.echo(f"{one.participant}: {one.trials} trials, {text}")
-    mean = found.reason or f"threshold {words(found.threshold)} {found.unit}, JND {words(found.jnd)}"
-    typer.echo(f"mean of people: {mean}")
+    for name, one in [*((f"{p.participant}: {p.trials} trials", p) for p in found.people), ("mean of people", found)]:
+        text = f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
+        if one.slope is not None:
+            text = f"{words(one.slope)} points for each {found.unit}"
+        typer.echo(f"{name}, {one.reason or text}")
 
 
 @command.command()
@@ -167,24 +160,21 @@ def power(
     people: Annotated[str, typer.Option(help="Numbers of people, such as 4,8.")] = "4,8",
     experiments: Annotated[int, typer.Option(min=2, max=10_000, help="Simulated experiments a row.")] = 20,
     between: Annotated[float, typer.Option(min=0, max=2, help="Spread of the people's noise, as a share.")] = 0.2,
-    weber: Weber = 0.1,
-    noise: Noise = 0.0,
-    masking: Masking = 0.0,
-    bias: Bias = 0.0,
-    lapse: Lapse = 0.02,
-    criterion: Criterion = None,
+    observer: Observed = "",
     seed: Seed = 0,
     as_json: Json = False,
 ) -> None:
     """How wide the intervals become with so many trials and people, by simulated observers."""
-    from punctura.perception import Observer, load_protocol
+    from punctura.perception import load_protocol
     from punctura.perception import power as rows_of
 
     counts = _numbers(trials, "--trials"), _numbers(people, "--people")
+    judge = _observer(observer)
     loaded = load_protocol(protocol)
-    observer = Observer(weber, noise, masking, bias, lapse, criterion)
+    if loaded.rates:
+        raise typer.BadParameter("asks for ratings, which have no threshold", param_hint="PROTOCOL")
     with progress_bar("power") as progress:
-        rows = rows_of(loaded, observer, *counts, experiments, seed, between, progress)
+        rows = rows_of(loaded, judge, *counts, experiments, seed, between, progress)
     if as_json:
         typer.echo(json.dumps([asdict(row) for row in rows], indent=2))
         return
@@ -193,6 +183,26 @@ def power(
         typer.echo(
             f"{row.trials:6}  {row.people:6}  {row.person_width:26.3g}  {row.mean_width:14.3g}  {row.without:20.1%}"
         )
+
+
+def _observer(text: str) -> Observer:
+    """Raises BadParameter."""
+    from punctura.perception import Observer
+
+    known = [field.name for field in fields(Observer)]
+    found: dict[str, float] = {}
+    for part in filter(None, text.split(",")):
+        key, _, value = (word.strip() for word in part.partition("="))
+        try:
+            found[key] = float(value)
+        except ValueError:
+            raise typer.BadParameter(f"{part} is not KEY=NUMBER, such as weber=0.1", param_hint="--observer") from None
+        if key not in known:
+            raise typer.BadParameter(f"{key} is none of {', '.join(known)}", param_hint="--observer")
+    try:
+        return Observer(**found)
+    except ValueError as bad:
+        raise typer.BadParameter(str(bad), param_hint="--observer") from None
 
 
 def _numbers(text: str, option: str) -> list[int]:

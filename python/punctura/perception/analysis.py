@@ -36,7 +36,7 @@ class Answers:
 
     level: Array  # as planned
     x: Array  # as felt, if the variable is a felt quantity; otherwise as planned
-    counted: Array  # 1 for the counted answer
+    counted: Array  # 1 for the counted answer; the points of a rating
     right: Array  # 1 for a right answer; NaN where none is right
     block: Array
     catch: Array  # whether the counted answer was given, in the catch trials
@@ -63,6 +63,7 @@ class Person:
     jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself
     weber: Estimate | None = None  # jnd / reference
     lapse: Estimate | None = None
+    slope: Estimate | None = None  # of ratings: points for each unit of the variable
     reason: str = ""  # why there is no threshold
     detection: list[Detection] = field(default_factory=list)
     right_by_block: list[float | None] = field(default_factory=list)  # None: no answer of the block is right or wrong
@@ -81,6 +82,7 @@ class Analysis:
     threshold: Estimate | None = None
     jnd: Estimate | None = None
     weber: Estimate | None = None
+    slope: Estimate | None = None
     reason: str = ""  # why there are no means
 
 
@@ -90,17 +92,17 @@ def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Ans
     catch = []
     for line in lines:
         data: JsonObject = dict(line)
-        hit = counted(protocol, data["position"], data["answer"])
+        hit = float(data["answer"] if protocol.rates else counted(protocol, data["position"], data["answer"]))
         if data["kind"] == "catch":
-            catch.append(float(hit))
+            catch.append(hit)
         elif data["kind"] == "trial":
             level = float(data["level"])
             right = float("nan")
             if not protocol.compares:
-                right = float(hit)
+                right = float("nan") if protocol.rates else hit
             elif level != protocol.reference:
-                right = float(hit == ((level > (protocol.reference or 0.0)) == protocol.rises))
-            rows.append((level, _felt(protocol, data), float(hit), right, float(data["block"])))
+                right = float((hit == 1) == ((level > (protocol.reference or 0.0)) == protocol.rises))
+            rows.append((level, _felt(protocol, data), hit, right, float(data["block"])))
     table = np.array(rows, np.float64).reshape(-1, 5)
     return Answers(*table.T, catch=np.array(catch))
 
@@ -136,6 +138,9 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, ob
     result.reason = _too_little(protocol, found)
     if result.reason:
         return result
+    if protocol.rates:
+        result.slope = _slope(found.x, found.counted)
+        return result
     belief = belief_of(protocol, found)
     grid, shape = belief.grid, protocol.shape
     outside = float(belief.weight @ ((grid.place < grid.low) | (grid.place > grid.high)))
@@ -169,6 +174,9 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
     if len(found.level) < least:
         return f"{len(found.level)} answers are too few for a threshold: {least} are needed"
     share = float(found.counted.mean())
+    if protocol.rates:
+        same = [what for what, one in (("rating", found.counted), ("level", found.x)) if np.ptp(one) == 0]
+        return f"every {same[0]} was the same, so there is no slope" if same else ""
     if share in (0.0, 1.0):
         what = {"yes_no": ("no", "yes")}.get(protocol.file.task, ("wrong", "right"))
         what = ("the reference", "the comparison") if protocol.compares else what
@@ -176,6 +184,16 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
     if not protocol.shape.one_sided and len(np.unique(found.level)) < 2:
         return "only one level was shown, so there is no threshold"
     return ""
+
+
+def _slope(x: Array, y: Array) -> Estimate:
+    """Of the straight line of least squares, with the interval of Student's t."""
+    away = x - x.mean()
+    slope = float(away @ y / (away @ away))
+    rest = y - y.mean() - slope * away
+    error = float(np.sqrt(rest @ rest / (len(x) - 2) / (away @ away)))
+    half = float(stdtrit(len(x) - 2, SHARES[1])) * error
+    return Estimate(slope, slope - half, slope + half)
 
 
 def _estimate(belief: Belief, values: Array) -> Estimate:
@@ -186,7 +204,7 @@ def _estimate(belief: Belief, values: Array) -> Estimate:
 def _detection(protocol: Protocol, found: Answers) -> list[Detection]:
     """d' of each level: from yes and false alarms in the catch trials, or from two intervals with a right answer."""
     task = protocol.file.task
-    if (task == "yes_no" and not len(found.catch)) or task == "three_intervals" or protocol.compares:
+    if (task == "yes_no" and not len(found.catch)) or task == "three_intervals" or protocol.compares or protocol.rates:
         return []
     list_of = []
     for level in np.unique(found.level):
@@ -216,11 +234,12 @@ def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Mapping[str, obj
     """All participants: the lines of each session by pseudonym, without headers."""
     people = [person(protocol, name, lines) for name, lines in sessions.items()]
     result = Analysis(protocol.name, protocol.unit, protocol.in_newtons, people)
-    known = [one for one in people if one.threshold is not None]
+    known = [one for one in people if one.threshold is not None or one.slope is not None]
     if len(known) < 2:
-        result.reason = f"{len(known)} participant{'s' * (len(known) != 1)} with a threshold: a mean needs 2"
+        what = "slope" if protocol.rates else "threshold"
+        result.reason = f"{len(known)} participant{'s' * (len(known) != 1)} with a {what}: a mean needs 2"
         return result
-    for key in ("threshold", "jnd", "weber"):
+    for key in ("threshold", "jnd", "weber", "slope"):
         values = [one.value for person in known if (one := getattr(person, key)) is not None]
         if len(values) > 1:
             setattr(result, key, _mean(np.array(values)))

@@ -56,8 +56,7 @@ class Course:
             return None
         block, kind = self._plan[self.at]
         protocol = self.protocol
-        level = {"practice": protocol.easiest, "catch": -1}.get(kind)
-        level = self._method.next() if level is None else level
+        level = self._method.next() if kind == "trial" else protocol.easiest if kind == "practice" else -1
         shown = protocol.catch if kind == "catch" else protocol.stimuli[level]
         assert shown is not None
         position = int(self._positions[self.at] + self._turn) % protocol.intervals

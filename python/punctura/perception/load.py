@@ -128,10 +128,14 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
         yield Problem("stimulus.levels", levels, 'must be more than 0 with scale = "log"')
     reference = None if given.reference is None else float(given.reference)
     by_solver = given.reference_solver is not None
-    if file.task == "yes_no":
+    if file.task == "rating" and (file.method != "constant" or file.trials.catch):
+        yield Problem("task", file.task, "is for constant stimuli without catch trials: change method or catch")
+    if file.task in ("yes_no", "rating"):
         for key in ("reference", "reference_solver"):
             if getattr(given, key) is not None:
-                yield Problem(f"stimulus.{key}", _plain(getattr(given, key)), "is not for yes_no: it has one interval")
+                yield Problem(
+                    f"stimulus.{key}", _plain(getattr(given, key)), f"is not for {file.task}, of one interval"
+                )
     elif (reference is None) != by_solver:
         reason = f"{file.task} needs a reference, a level, or a reference_solver, and not both"
         yield Problem("stimulus.reference", MISSING if reference is None else reference, reason)

@@ -23,7 +23,8 @@ class Observer:
 
     Its standard deviation is that of `noise`, `weber` times the quantity and `masking` times the largest force of the
     interval, together. The interval that is felt as the strongest is chosen; "yes" if it is felt as more than
-    `criterion`. Without a `criterion` it is half of the easiest level's.
+    `criterion`. Without a `criterion` it is half of the easiest level's. A rating has one more point for each
+    `criterion`, by default an eighth.
     """
 
     weber: float = 0.1
@@ -32,6 +33,18 @@ class Observer:
     bias: float = 0.0  # N, added to the comparison
     lapse: float = 0.02  # share of answers by chance
     criterion: float | None = None  # N
+
+    def __post_init__(self) -> None:
+        """Raises ValueError."""
+        for key in ("weber", "noise", "masking"):
+            if not 0 <= getattr(self, key) < np.inf:
+                raise ValueError(f"{key} must be 0 or more, not {getattr(self, key):g}")
+        if not 0 <= self.lapse <= 1:
+            raise ValueError(f"lapse must be from 0 to 1, not {self.lapse:g}")
+        if not self.weber + self.noise + self.masking > 0:
+            raise ValueError("give at least one of weber, noise and masking: without noise there is no threshold")
+        if not np.isfinite([self.bias, self.criterion or 0.0]).all():
+            raise ValueError("bias and criterion must be finite numbers")
 
     def spread(self, one: Felt, judged: str) -> float:
         return float(np.hypot(np.hypot(self.noise, self.weber * getattr(one, judged)), self.masking * one.peak))
@@ -73,6 +86,8 @@ class Simulation:
         if random.random() < self.observer.lapse:
             return names[int(random.integers(len(names)))], felt
         inner = [self._inner(one, random, i == trial.position) for i, one in enumerate(felt)]
+        if self.protocol.rates:
+            return names[int(np.clip(round(inner[0] / self.criterion), 0, len(names) - 1))], felt
         if self.protocol.file.task == "yes_no":
             return names[0 if inner[0] > self.criterion else 1], felt
         return names[int(np.argmax(inner) if self._stronger(trial) else np.argmin(inner))], felt
@@ -90,10 +105,11 @@ class Simulation:
 
     @cached_property
     def criterion(self) -> float:
-        """Above which a yes is given, N."""
+        """Above which a yes is given, or the step between two ratings; N."""
         if self.observer.criterion is not None:
             return self.observer.criterion
-        return float(getattr(self.protocol.stimuli[self.protocol.easiest].felt, self._judged)) / 2
+        most = float(getattr(self.protocol.stimuli[self.protocol.easiest].felt, self._judged))
+        return most / (8 if self.protocol.rates else 2)
 
     def run(self, participant: int, seed: int) -> list[dict[str, object]]:
         """The lines of a whole session, without a file."""

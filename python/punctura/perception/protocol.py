@@ -16,11 +16,12 @@ from punctura.perception.psychometric import Shape
 from punctura.perception.stimulus import QUANTITIES, Felt
 
 Method = Literal["constant", "staircase", "quest"]
-Task = Literal["two_intervals", "three_intervals", "yes_no"]
+Task = Literal["two_intervals", "three_intervals", "yes_no", "rating"]
 ANSWERS: dict[str, tuple[str, ...]] = {
     "two_intervals": ("first", "second"),
     "three_intervals": ("first", "second", "third"),
     "yes_no": ("yes", "no"),
+    "rating": tuple("123456789"),
 }
 _KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n"}
 
@@ -30,11 +31,11 @@ class StimulusTable(Table):
 
     variable: Text  # a path of the scene, or one of QUANTITIES
     levels: Numbers
-    reference: Number | None = None  # level of the other intervals; not for yes_no
+    reference: Number | None = None  # level of the other intervals; not for yes_no and rating
     solve: Text | None = None  # for a quantity: the path whose number is solved ...
     between: Numbers | None = None  # ... between these two
     membrane: Text | None = None  # whose pop is judged; default: the first
-    judged: Literal["drop", "peak", "roughness"] = "drop"  # what a simulated observer judges
+    judged: Literal["drop", "contrast", "peak", "roughness"] = "drop"  # what a simulated observer judges
     scale: Literal["linear", "log"] = "linear"  # of the levels, in the fit
     solver: Text | None = None  # of the scene's [servo], in the intervals with the level ...
     reference_solver: Text | None = None  # ... and in the others
@@ -95,7 +96,7 @@ class Protocol:
     path: Path
     file: ProtocolFile
     stimuli: tuple[Stimulus, ...]  # one a level, from the lowest to the highest
-    references: tuple[Stimulus, ...]  # for each level the other intervals; empty for yes_no
+    references: tuple[Stimulus, ...]  # for each level the other intervals; empty without other intervals
     catch: Stimulus | None
     membrane: int  # the judged one
     unit: str  # of the levels
@@ -112,7 +113,12 @@ class Protocol:
     @property
     def intervals(self) -> int:
         """The number of intervals of a trial."""
-        return {"two_intervals": 2, "three_intervals": 3, "yes_no": 1}[self.file.task]
+        return {"two_intervals": 2, "three_intervals": 3}.get(self.file.task, 1)
+
+    @property
+    def rates(self) -> bool:
+        """Whether the answers are ratings, which have a slope and no threshold."""
+        return self.file.task == "rating"
 
     @property
     def reference(self) -> float | None:
@@ -122,7 +128,7 @@ class Protocol:
     @property
     def answers(self) -> dict[str, str]:
         """The key of each answer, in the order of the task."""
-        return {name: self.file.answers.get(name, _KEYS[name]) for name in ANSWERS[self.file.task]}
+        return {name: self.file.answers.get(name, _KEYS.get(name, name)) for name in ANSWERS[self.file.task]}
 
     @property
     def in_newtons(self) -> bool:
@@ -167,7 +173,7 @@ class Protocol:
     @property
     def easiest(self) -> int:
         """The index of the level that is told best."""
-        if self.file.task == "yes_no":
+        if self.intervals == 1:
             return len(self.stimuli) - 1 if self.rises else 0
         return max(range(len(self.stimuli)), key=lambda i: self.difference(i))
 

@@ -64,20 +64,27 @@ def words(one: Estimate | None, digits: int = 3) -> str:
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     file, unit = protocol.file, found.unit
+    keys = {"slope": f"points for each {unit}"}
+    if not protocol.rates:
+        keys = {"threshold": f"threshold, {unit}", "jnd": f"JND, {unit}", "weber": "Weber fraction", "lapse": "lapses"}
     what = "the felt quantity" if found.felt else "the planned level"
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable} in {unit}, fitted against "
         f"{what}. Intervals are {LEVEL:.0%} intervals. Source of the protocol: {file.source or 'not given'}.", "",
-        f"| participant | trials | threshold, {unit} | JND, {unit} | Weber fraction | lapses | right in each block |",
-        "|---|---|---|---|---|---|---|",
+        f"| participant | trials | {' | '.join(keys.values())} | right in each block |",
+        f"|---|---|{'---|' * len(keys)}---|",
     ]  # fmt: skip
     for one in found.people:
         blocks = ", ".join("-" if share is None else f"{share:.0%}" for share in one.right_by_block)
-        cells = one.reason or " | ".join(words(each) for each in (one.threshold, one.jnd, one.weber, one.lapse))
-        lines.append(f"| {one.participant} | {one.trials} | {cells}{' | | |' if one.reason else ''} | {blocks} |")
-    means = " | ".join(words(each) for each in (found.threshold, found.jnd, found.weber))
-    lines += [f"| **mean of people** | | {means} | | |" if not found.reason else "", ""]
+        cells = [words(getattr(one, key)) for key in keys]
+        if one.reason:
+            cells = [one.reason, *[""] * (len(keys) - 1)]
+        lines.append(f"| {one.participant} | {one.trials} | {' | '.join(cells)} | {blocks} |")
+    if not found.reason:
+        means = " | ".join(words(getattr(found, key, None)) for key in keys)
+        lines.append(f"| **mean of people** | | {means} | |")
+    lines.append("")
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
     detected = [(one.participant, each) for one in found.people for each in one.detection]
     if detected:

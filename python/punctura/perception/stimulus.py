@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from punctura import Scene
 from punctura._core import Experiment, ForceLimits, Hand, Strokes, force_scale, largest_force, lasting_force
 from punctura.compare.run import Run
-from punctura.compare.statistics import statistics
+from punctura.compare.statistics import FELT_S, statistics
 from punctura.errors import ConfigurationError
 from punctura.live import stroke_ends
 
@@ -27,6 +27,7 @@ class Felt:
     """The felt force of one interval, from its ticks. SI."""
 
     drop: float  # N, at the pop of the judged membrane; 0 without a pop
+    contrast: float  # that drop as a share of the force before it
     peak: float  # N, the largest of the run
     roughness: float  # N rms about the mean of SMOOTH_S, from the first touch to just before the first pop
     speed: float  # m/s along the needle, mean from the first touch to the deepest place
@@ -35,24 +36,32 @@ class Felt:
 
 
 QUANTITIES = {"drop_N": "drop", "peak_N": "peak"}  # variables in newtons, and what of Felt they are
-JUDGED = ("drop", "peak", "roughness")
 
 
 def felt(run: Run, membrane: int, scale: float) -> Felt:
     """What a run felt like. membrane: the judged one. scale: the run's force scale."""
     found = statistics(run)
-    drops = [pop.felt_drop or 0.0 for pop in found.pops if pop.membrane == membrane]
+    pops = [pop for pop in found.pops if pop.membrane == membrane]
+    largest = max(pops, key=lambda pop: pop.felt_drop or 0.0, default=None)
+    drop = 0.0 if largest is None else largest.felt_drop or 0.0
     touch, deepest = run.touch, int(np.nanargmax(run.depth))
     seconds = float(run.time[max(deepest, touch)] - run.time[touch])
     way = float(np.nansum(run.travel[touch + 1 : deepest + 1]))
     return Felt(
-        drop=max(drops, default=0.0),
+        drop=drop,
+        contrast=0.0 if largest is None else drop / max(_before(run, run.time[touch] + largest.time), 1e-9),
         peak=found.felt_peak or 0.0,
         roughness=_roughness(run, touch),
         speed=way / seconds if seconds > 0 else 0.0,
         scale=scale,
-        pops=len(drops),
+        pops=len(pops),
     )
+
+
+def _before(run: Run, time: float) -> float:
+    """The largest felt force just before a pop, N."""
+    around = (run.time >= time - FELT_S) & (run.time <= time)
+    return float(np.nanmax(run.felt[around]))
 
 
 def _roughness(run: Run, touch: int) -> float:

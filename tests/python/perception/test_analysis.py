@@ -119,6 +119,24 @@ def test_dprime_and_criterion(senses: dict[str, Senses]) -> None:
     assert without.detection == []  # no false alarms are known
 
 
+def test_the_slope_of_ratings(tmp_path: Path) -> None:
+    """Against NumPy's straight line, and no slope without two levels or ratings."""
+    text = COMPARES.replace('"two_intervals"', '"rating"').replace("reference = 0.41\n", "")
+    protocol = load_protocol(written(tmp_path, text))
+    ratings = [
+        line | {"answer": str(5 + (i % 3) + round(4 * (float(str(line["level"])) - 0.5)))}
+        for i, line in enumerate(lines(protocol, lambda level, i: True))
+    ]
+    found = person(protocol, "", ratings)
+    x, y = (np.array([float(str(line[key])) for line in ratings]) for key in ("level", "answer"))
+    (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
+    assert found.slope is not None and found.threshold is None and found.slope.value == pytest.approx(slope)
+    half = 1.980272 * np.sqrt(covariance[0, 0])  # Student's t of 118 degrees of freedom, 97.5 %
+    assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
+    same = person(protocol, "", [line | {"answer": "5"} for line in ratings])
+    assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
+
+
 def test_means_of_people_need_two(senses: dict[str, Senses]) -> None:
     one = Simulation(senses["compares"].protocol, SHARP, senses["compares"])
     sessions = {f"P{i}": one.run(i, i) for i in range(4)}

@@ -8,7 +8,8 @@ import pytest
 from protocols import COMPARES, RIGHT, YES, written
 from punctura import ConfigurationError
 from punctura._core import ForceLimits
-from punctura.perception import load_protocol, protocol_names
+from punctura.perception import Observer, Simulation, load_protocol, protocol_names
+from punctura.perception.analysis import person
 from punctura.perception.course import Course
 from punctura.perception.stimulus import simulated
 from punctura.perception.terminal import check_device
@@ -53,7 +54,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
     ("base", "old", "new", "path", "words"),
     [
         (COMPARES, "reference = 0.41", "", "stimulus.reference", "needs a reference"),
-        (YES, "[trials]", "reference = 1\n[trials]", "stimulus.reference", "is not for yes_no"),
+        (YES, "[trials]", "reference = 1\n[trials]", "stimulus.reference", "is not for yes_no, of one interval"),
         (COMPARES, '"constant"', '"staircase"', "trials.per_level", "give total"),
         (COMPARES, "blocks = 2", "blocks = 3", "trials.blocks", "must divide per_level"),
         (COMPARES, "[trials]", "[trials]\nbreak_s = nan", "trials.break_s", "more than 0"),
@@ -62,6 +63,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (COMPARES, "levels = [0.2,", "levels = [nan,", "stimulus.levels", "larger than the one before"),
         (YES, "levels = [0.0002,", "levels = [-0.0002,", "stimulus.levels[0]", "must be"),
         (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
+        (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
         (SOLVED, "0.35]", "2.5]", "stimulus.levels[2]", "no scene gives 2.5 N"),
         (SOLVED, "between = [0.0, 1.5]", "", "stimulus.between", "is missing"),
         (SOLVED, "between = [0.0, 1.5]", "between = [1.5, 0]", "stimulus.between", "the smaller one first"),
@@ -96,8 +98,17 @@ def test_a_device_that_cannot_show_a_level_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", protocol_names())
-def test_the_ready_protocols_are_sound(name: str) -> None:
+def test_the_ready_protocols_run_on_observers(name: str) -> None:
     protocol = load_protocol(name)
     assert protocol.file.source and protocol.file.consent and protocol.file.instruction
     assert len(Course(protocol, 0)) >= 40
     check_device(protocol, ForceLimits())
+    simulation = Simulation(protocol, Observer(weber=0.0, noise=0.0008 if name == "chatter" else 0.02))
+    found = person(protocol, "", simulation.run(0, 1))
+    assert found.reason == "" and found.trials >= 40
+    if protocol.rates:
+        step = simulation.criterion  # N for one point, between the ends of the scale
+        assert found.slope is not None and 0.7 / step < found.slope.value < 1.1 / step
+    else:
+        truth = simulation.threshold()
+        assert found.threshold is not None and found.threshold.value == pytest.approx(truth, rel=0.35)

@@ -139,7 +139,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert status == 0 and checked["trials"] == 152 and checked["unit"] == "m"
     drops = [level["drop"] for level in checked["levels"]]
     assert drops == sorted(drops, reverse=True)
-    status, out, err = call(capsys, "simulate", file, "--people", 2, "--noise", 0.03, "--json")
+    status, out, err = call(capsys, "simulate", file, "--people", 2, "--observer", "noise=0.03", "--json")
     found = json.loads(out)
     assert status == 0, err
     assert [one["trials"] for one in found["people"]] == [120, 120]
@@ -158,6 +158,9 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
     status, _, err = call(capsys, "analyse", file, "--out", tmp_path / "none")
     assert status == 1 and "has no session" in err
+    for wrong, words in (("weber=a", "KEY=NUMBER"), ("webber=1", "none of weber, "), ("lapse=2", "from 0 to 1")):
+        status, _, err = call(capsys, "power", file, "--observer", wrong)
+        assert status == 2 and words in err
     changed = written(tmp_path, YES.replace("seed = 4", "seed = 5"))
     status, _, err = call(capsys, "analyse", changed)
     assert status == 1 and "another protocol or of a changed one" in err
