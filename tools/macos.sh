@@ -1,25 +1,21 @@
 #!/usr/bin/env bash
 # Compiles and links core, runtime and their tests for macOS on Linux. It runs nothing, because macOS is not available.
 #   tools/macos.sh [aarch64|x86_64]     default: aarch64
-# The compiler is Zig's Clang from PyPI, which includes the system's public headers; it is installed in build/macos/.
+# The compiler is tools/zig.sh.
 # Results: docs/windows-and-macos.md.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 cd "$root"
 machine=${1:-aarch64}
 out=build/macos/$machine
-venv=build/macos/venv
 
-[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
-"$venv/bin/python" -c 'import ziglang' 2>/dev/null ||
-  "$venv/bin/pip" install -q --disable-pip-version-check "ziglang==0.17.*"
+source tools/zig.sh && zig
 mkdir -p "$out" build/macos/include && ln -sfn /usr/include/doctest build/macos/include/doctest
-export ZIG_GLOBAL_CACHE_DIR=$root/build/macos/cache ZIG_LOCAL_CACHE_DIR=$root/build/macos/cache
 
 # The same warnings as elsewhere, all as errors. The tests hold the paths of the fakes, which are not opened here.
 # doctest needs a constant of <cfloat> without including it, and uses __COUNTER__, which this Clang reports as an
 # extension.
-compiler=("$venv/bin/python" -m ziglang c++ -target "$machine-macos" -std=c++20 -O1)
+compiler=("$zig" c++ -target "$machine-macos" -std=c++20 -O1)
 flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Icore -Iruntime -Itests -Itests/core
   -isystem build/macos/include '-DDBL_EPSILON=__DBL_EPSILON__' -Wno-c2y-extensions
   '-DPUNCTURA_FAKE_DRD="fake_drd"' '-DPUNCTURA_FAKE_DHD="fake_dhd"' '-DPUNCTURA_FAKE_DRD_OLD="fake_drd_old"'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compiles the C library and the run of the page (live/) to WebAssembly.
-#   integrations/wasm/build.sh        writes punctura.wasm and embedded.mjs here
+#   integrations/wasm/build.sh        writes punctura.wasm and embedded.mjs here; exit status 77: a tool is missing
 # Needs clang, lld, wasi-libc and libc++ for wasm32, and toml++: test.sh names the packages of Debian 12.
 # The stack is 1 MiB, because a scene is built on it.
 set -euo pipefail
@@ -12,12 +12,12 @@ version=$(sed -n 's/^ *"version": "\(.*\)",/\1/p' "$here/package.json")
 
 # Only toml++ is taken from /usr/include: the other headers there belong to this machine.
 toml=${PUNCTURA_TOML_DIR:-/usr/include}/toml++
-[ -f "$toml/toml.h" ] || { echo "toml++ is missing. Debian: apt-get install libtomlplusplus-dev" >&2; exit 1; }
+[ -f "$toml/toml.h" ] || { echo "toml++ is missing. Debian: apt-get install libtomlplusplus-dev" >&2; exit 77; }
 ln -sfn "$toml" "$objects/include/toml++"
 
 # Named, because clang also searches the libc++ of this machine, if there is one.
 libcxx=/usr/include/wasm32-wasi/c++/v1
-[ -f "$libcxx/__config" ] || { echo "libc++ for wasm32 is missing. Debian 12: libc++-14-dev-wasm32" >&2; exit 1; }
+[ -f "$libcxx/__config" ] || { echo "libc++ for wasm32 is missing. Debian 12: libc++-14-dev-wasm32" >&2; exit 77; }
 
 flags="--target=wasm32-wasi --sysroot=/usr -std=c++20 -O2 -ffp-contract=off -fno-exceptions
   -fno-rtti -fno-threadsafe-statics -fno-c++-static-destructors -DPUNCTURA_STATIC -DPUNCTURA_C_TOML

@@ -1,6 +1,6 @@
 """The sdist holds every file of the tree and the studio's page, and nothing that a build leaves.
 
-tools/check_release.sh builds a wheel from it.
+tools/release.sh builds a wheel from it.
 """
 
 from __future__ import annotations
