@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -62,6 +63,18 @@ def test_the_threshold_of_an_observer_is_found(senses: dict[str, Senses], name: 
     assert found.without <= 3
     assert round(found.covered * (found.sessions - found.without)) >= 16 - found.without
     assert abs(found.bias) < 0.1
+
+
+@pytest.mark.statistics
+@pytest.mark.parametrize("name", ["compares", "right"])
+def test_95_percent_of_the_intervals_hold_the_threshold(senses: dict[str, Senses], name: str) -> None:
+    """400 sessions of constant stimuli, with the figures of docs/decisions/perception.md."""
+    file = senses[name].protocol.file.model_copy(update={"method": "constant"})
+    protocol = with_trials(replace(senses[name].protocol, file=file), 240)
+    found = coverage(protocol, SHARP, 400, 1000, senses[name])
+    assert found.without <= 4
+    assert 0.93 <= found.covered <= 0.97
+    assert abs(found.bias) < 0.02
 
 
 def test_the_just_noticeable_difference_is_that_of_the_noise(senses: dict[str, Senses]) -> None:
