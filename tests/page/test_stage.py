@@ -138,6 +138,15 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
     expect(page.locator(".stage-number")).to_be_visible()
 
 
+def test_a_blind_exercise_has_its_words_on_the_stage_of_a_phone(page):
+    page.get_by_role("button", name="More").click()
+    tab(page, "Exercises")
+    page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
+    expect(page.locator(".stage-sentence")).to_contain_text("Push slowly")
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.wait_for_function(WORDS_WHOLE)
+
+
 def test_the_bench_is_one_click_or_one_key_away_and_is_remembered(page):
     page.get_by_role("button", name="More").click()
     expect(page.get_by_role("tab", name="Lab")).to_be_visible()

@@ -50,17 +50,18 @@ export const arrange: Panel = (root, app) => {
     const onBench = page.value === "bench";
     root.toggleAttribute("data-projector", onBench && all.now.value.projector);
     root.toggleAttribute("data-maximised", onBench && all.maximised.value !== null);
+    root.toggleAttribute("data-exercise", onBench && (app.exercise.value?.running ?? false));
   };
   all.now.watch(attributes);
   all.maximised.watch(attributes);
   page.watch(attributes);
+  app.exercise.watch(attributes);
   all.maximised.watch((name) => {
     panels.forEach((panel, i) => {
       panel.classList.toggle("maximised", PANELS[i] === name);
     });
   });
   keys(app);
-  app.exercise.watch((status) => root.toggleAttribute("data-exercise", status?.running ?? false));
 };
 
 /** The order of reading and of the tab key is the order on the page. The focus stays where it is. */
