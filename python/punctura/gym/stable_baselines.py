@@ -45,9 +45,10 @@ class NeedleVecEnv(VecEnv):  # type: ignore[misc]  # the types are checked where
         self._return += reward
         self._steps += 1
         done = ended | late
-        infos = [{name: columns[name][i] for name in ("success", "pierced", "fault")} for i in range(self.num_envs)]
+        names = ("success", "pierced", "fault")
+        infos = [{name: columns[name][i].item() for name in names} for i in range(self.num_envs)]
         for i in np.flatnonzero(done).tolist():
-            final = {name: column[i] for name, column in columns["final_info"].items() if not name.startswith("_")}
+            final = {name: column[i].item() for name, column in columns["final_info"].items() if not name.startswith("_")}
             infos[i] = final | {
                 "terminal_observation": columns["final_obs"][i],
                 "TimeLimit.truncated": bool(late[i]),
