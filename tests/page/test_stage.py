@@ -2,7 +2,7 @@
 
 import pytest
 from axe import AXE, none_found
-from person import opened, tab, view, whole_at
+from person import opened, ready, tab, view, whole_at
 from playwright.sync_api import Page, expect
 from studio_process import StudioProcess
 
@@ -119,6 +119,7 @@ def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
 
 def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
     page.get_by_role("button", name="More").click()
+    ready(page)
     tab(page, "Exercises")
     card = page.locator("article.exercise", has_text="Steady push")
     card.get_by_role("button", name="Start").click()
@@ -140,6 +141,7 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
 
 def test_a_blind_exercise_has_its_words_on_the_stage_of_a_phone(page):
     page.get_by_role("button", name="More").click()
+    ready(page)
     tab(page, "Exercises")
     page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
     expect(page.locator(".stage-sentence")).to_contain_text("Push slowly")
