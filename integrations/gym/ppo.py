@@ -57,8 +57,9 @@ class Curve(BaseCallback):
 
     def _on_rollout_end(self) -> None:
         if self._last:
-            self.points.append((self.num_timesteps, float(np.mean(self._last))))
-            print(f"  {self.num_timesteps:8d} decisions: {self.points[-1][1]:4.0%} of the last trials succeed", flush=True)
+            share = float(np.mean(self._last))
+            self.points.append((self.num_timesteps, share))
+            print(f"  {self.num_timesteps:8d} decisions: {share:4.0%} of the last trials succeed", flush=True)
 
 
 def success(model: PPO, patients: int) -> float:

@@ -15,4 +15,5 @@ echo "gym: a hand that feels the pop stops behind it"
 with_package stable_baselines3 "stable-baselines3>=2.4,<3"
 "$python" same_trials.py
 "$python" ppo.py --decisions 50000 | tee "$work/log"
-awk '/^PPO:/ { felt = $2 + 0 } END { if (felt < 40) { print "PPO has not learnt to stop after the pop"; exit 1 } }' "$work/log"
+awk '/^PPO:/ { felt = $2 + 0 } END { if (felt < 40) { print "PPO has not learnt to stop after the pop"; exit 1 } }' \
+  "$work/log"

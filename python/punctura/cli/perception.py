@@ -16,6 +16,7 @@ from punctura.progress import progress_bar
 
 if TYPE_CHECKING:
     from punctura.perception import Analysis, Observer, Protocol
+    from punctura.perception.analysis import Person
 
 command = typer.Typer(no_args_is_help=True, help="Psychophysics: asks people what they feel, and analyses the answers.")
 
@@ -146,7 +147,8 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
 def _print(found: Analysis) -> None:
     from punctura.perception.report import words
 
-    for name, one in [*((f"{p.participant}: {p.trials} trials", p) for p in found.people), ("mean of people", found)]:
+    lines: list[tuple[str, Person | Analysis]] = [(f"{p.participant}: {p.trials} trials", p) for p in found.people]
+    for name, one in [*lines, ("mean of people", found)]:
         text = f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
         if one.slope is not None:
             text = f"{words(one.slope)} points for each {found.unit}"

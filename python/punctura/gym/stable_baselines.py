@@ -48,7 +48,7 @@ class NeedleVecEnv(VecEnv):  # type: ignore[misc]  # the types are checked where
         names = ("success", "pierced", "fault")
         infos = [{name: columns[name][i].item() for name in names} for i in range(self.num_envs)]
         for i in np.flatnonzero(done).tolist():
-            final = {name: column[i].item() for name, column in columns["final_info"].items() if not name.startswith("_")}
+            final = {name: columns["final_info"][name][i].item() for name in names}
             infos[i] = final | {
                 "terminal_observation": columns["final_obs"][i],
                 "TimeLimit.truncated": bool(late[i]),

@@ -104,7 +104,8 @@ def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Ans
                 right = float((hit == 1) == ((level > (protocol.reference or 0.0)) == protocol.rises))
             rows.append((level, _felt(protocol, data), hit, right, float(data["block"])))
     table = np.array(rows, np.float64).reshape(-1, 5)
-    return Answers(*table.T, catch=np.array(catch))
+    planned, felt, hits, rights, blocks = table.T
+    return Answers(planned, felt, hits, rights, blocks, np.array(catch))
 
 
 def _felt(protocol: Protocol, line: JsonObject) -> float:

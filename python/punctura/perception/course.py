@@ -42,7 +42,9 @@ class Course:
         scored = (given.per_level or 0) * len(protocol.levels) or (given.total or 0)
         self._plan: list[tuple[int, Kind]] = [(0, "practice")] * given.practice
         for block in range(given.blocks):
-            kinds: list[Kind] = ["trial"] * (scored // given.blocks) + ["catch"] * given.catch
+            trial: Kind = "trial"
+            catch: Kind = "catch"
+            kinds = [trial] * (scored // given.blocks) + [catch] * given.catch
             self._plan += [(block, kinds[i]) for i in random.permutation(len(kinds))]
         self._positions = random.permutation(np.arange(len(self._plan)) % count)
         self.at = 0

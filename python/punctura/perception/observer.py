@@ -113,7 +113,8 @@ class Simulation:
 
     def run(self, participant: int, seed: int) -> list[dict[str, object]]:
         """The lines of a whole session, without a file."""
-        course, lines = Course(self.protocol, participant), []
+        course = Course(self.protocol, participant)
+        lines: list[dict[str, object]] = []
         while (trial := course.next()) is not None:
             answer, felt = self.answer(trial, seed)
             lines.append(

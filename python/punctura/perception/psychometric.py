@@ -72,13 +72,13 @@ class Grid:
         low, high = float(shown.min()), float(shown.max())
         self.low, self.high = low, high
         spread = self.spread = high - low
-        widest = (
+        widest: Sequence[Array | tuple[float, float]] = (
             (low - spread / 2, high + spread / 2),
             np.log(spread * np.array([0.02, 2.0])),
             (0.0, MOST_LAPSE),
             (0.0, MOST_FLOOR),
         )
-        axes = [np.linspace(*ends, count) for ends, count in zip(near or widest, sizes, strict=True)]
+        axes = [np.linspace(ends[0], ends[1], count) for ends, count in zip(near or widest, sizes, strict=True)]
         if not shape.floor:
             axes[3] = np.zeros(1)
         self.parts = [part.ravel() for part in np.meshgrid(*axes, indexing="ij")]  # as near
@@ -131,7 +131,7 @@ def posterior(shape: Shape, levels: npt.ArrayLike, shown: npt.ArrayLike, counted
     """
     at, each = np.unique(np.asarray(shown, np.float64), return_inverse=True)
     total = np.bincount(each, minlength=len(at)).astype(np.float64)
-    hits = np.bincount(each, np.asarray(counted, np.float64), len(at))
+    hits = np.bincount(each, np.asarray(counted, np.float64), len(at)).astype(np.float64)
     belief = _weighed(Grid(shape, levels), at, hits, total)
     near = [_around(belief, values) for values in belief.grid.parts]
     return _weighed(Grid(shape, levels, FIT, near), at, hits, total)

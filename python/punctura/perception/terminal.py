@@ -141,9 +141,14 @@ def _interval(protocol: Protocol, stimulus: Stimulus, recording: Path, terminal:
     return felt(recorded_run(recording), protocol.membrane, summary.force_scale), ""
 
 
-def _recorder(path: Path) -> Callable[[ServoLoop], Callable[[], object]]:
-    def begin(loop: ServoLoop) -> Callable[[], object]:
-        return Recorder(loop, path).finish
+def _recorder(path: Path) -> Callable[[ServoLoop], Callable[[], None]]:
+    def begin(loop: ServoLoop) -> Callable[[], None]:
+        recorder = Recorder(loop, path)
+
+        def finish() -> None:
+            recorder.finish()
+
+        return finish
 
     return begin
 
