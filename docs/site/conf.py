@@ -12,7 +12,7 @@ from layout import PAGES
 from text import docstring_rst
 
 project = "Punctura"
-author = "the Punctura authors"
+author = "the Punctura contributors"
 version = release = punctura.__version__
 html_title = f"Punctura {release}"
 
