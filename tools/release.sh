@@ -148,7 +148,8 @@ $part: $(tail -n 1 "$work/log")" ;;
   esac
 done
 say "build/release" && cd "$made"
-sha256sum -- * | tee SHA256SUMS && ls -l
+files=(*) # before tee makes SHA256SUMS
+sha256sum -- "${files[@]}" | tee SHA256SUMS && ls -l
 after=$(git -C "$root" status --porcelain)
 [ "$before" = "$after" ] || { printf 'The build changed the clone:\n%s\n' "$after" && exit 1; }
 [ -z "$lacking" ] || { printf '\nNot made:%s\n' "$lacking" && exit 1; }

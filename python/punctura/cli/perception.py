@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from punctura.perception import Analysis, Observer, Protocol
     from punctura.perception.analysis import Person
 
-command = typer.Typer(no_args_is_help=True, help="Psychophysics: asks people what they feel, and analyses the answers.")
+command = typer.Typer(no_args_is_help=True, help="Asks people what they feel; analyses the answers.")
 
 File = Annotated[str, typer.Argument(help="A protocol file, or the name of a ready protocol.", metavar="PROTOCOL")]
 Out = Annotated[
@@ -96,6 +97,10 @@ def run(
 
 
 def _ask(text: str) -> str:
+    if sys.platform != "win32" and sys.stdin.isatty():
+        import termios
+
+        termios.tcflush(sys.stdin, termios.TCIFLUSH)  # what was typed before the question is no answer to it
     return str(typer.prompt(text.rstrip(" :"), default="", show_default=False, prompt_suffix=": "))
 
 

@@ -39,7 +39,7 @@ class Answers:
     counted: Array  # 1 for the counted answer; the points of a rating
     right: Array  # 1 for a right answer; NaN where none is right
     block: Array
-    catch: Array  # whether the counted answer was given, in the catch trials
+    catch: Array  # of the catch trials: 1 for a right answer, or for a "yes"
 
 
 @dataclass
@@ -93,15 +93,15 @@ def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Ans
     for line in lines:
         data: JsonObject = dict(line)
         hit = float(data["answer"] if protocol.rates else counted(protocol, data["position"], data["answer"]))
+        level = float(data["level"])
+        right = float("nan")
+        if not protocol.compares:
+            right = float("nan") if protocol.rates else hit
+        elif level != protocol.reference:
+            right = float((hit == 1) == ((level > (protocol.reference or 0.0)) == protocol.rises))
         if data["kind"] == "catch":
-            catch.append(hit)
+            catch.append(right)
         elif data["kind"] == "trial":
-            level = float(data["level"])
-            right = float("nan")
-            if not protocol.compares:
-                right = float("nan") if protocol.rates else hit
-            elif level != protocol.reference:
-                right = float((hit == 1) == ((level > (protocol.reference or 0.0)) == protocol.rises))
             rows.append((level, _felt(protocol, data), hit, right, float(data["block"])))
     table = np.array(rows, np.float64).reshape(-1, 5)
     planned, felt, hits, rights, blocks = table.T

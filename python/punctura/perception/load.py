@@ -81,6 +81,8 @@ def _answers(file: ProtocolFile) -> Iterator[Problem]:
 
 def _trials(file: ProtocolFile) -> Iterator[Problem]:
     given, levels = file.trials, len(file.stimulus.levels)
+    if file.seed < 0:
+        yield Problem("seed", file.seed, "must be 0 or more")
     wanted, other = ("per_level", "total") if file.method == "constant" else ("total", "per_level")
     if getattr(given, other) is not None:
         yield Problem(f"trials.{other}", getattr(given, other), f"is not for {file.method}; give {wanted}")
@@ -139,12 +141,17 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
     elif (reference is None) != by_solver:
         reason = f"{file.task} needs a reference, a level, or a reference_solver, and not both"
         yield Problem("stimulus.reference", MISSING if reference is None else reference, reason)
+    elif by_solver and file.trials.catch_level is not None:
+        reason = "is not for reference_solver: the other intervals would have another level; leave catch out"
+        yield Problem("trials.catch_level", float(file.trials.catch_level), reason)
     elif reference is not None and levels:
         one_sided = not min(levels) < reference < max(levels)
+        if file.trials.catch_level is not None and float(file.trials.catch_level) == reference:
+            yield Problem("trials.catch_level", reference, "is the reference, at which no answer is right")
         if not one_sided and (file.method == "staircase" or file.task == "three_intervals"):
             reason = f"must lie at an end of the levels for {file.method} with {file.task}, which score right answers"
             yield Problem("stimulus.reference", reference, reason)
-        elif file.method == "constant" and reference in levels and one_sided:
+        elif reference in levels and one_sided:
             reason = "is one of the levels, at which no answer is right; leave it out of levels"
             yield Problem("stimulus.reference", reference, reason)
     solvers = ("paper", "exact")

@@ -78,6 +78,9 @@ class Simulation:
         self.senses = senses or Senses(protocol)
         self._judged = protocol.file.stimulus.judged
 
+    def __repr__(self) -> str:
+        return f"<Simulation of {self.protocol.name} by {self.observer}>"
+
     def answer(self, trial: Trial, seed: int) -> tuple[str, list[Felt]]:
         """The answer, and what was felt in each interval. The same seed and trial give the same answer."""
         random = np.random.default_rng([seed, trial.number])
@@ -126,7 +129,7 @@ class Simulation:
 
     def run_on_disk(self, folder: Path, participant: str, seed: int) -> int:
         """A session in a folder, or the rest of one. Returns the number of its trials. Raises SessionError."""
-        with Session(self.protocol, folder, participant, consent=True) as session:
+        with Session(self.protocol, folder, participant, consent=True, simulated=True) as session:
             while (trial := session.next()) is not None:
                 session.add(trial, *self.answer(trial, seed))
             return len(session.course)

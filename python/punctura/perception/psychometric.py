@@ -112,8 +112,8 @@ class Belief(NamedTuple):
     grid: Grid
     weight: Array  # (cells,)
 
-    def quantiles(self, values: Array, shares: Sequence[float], step: float = 0.0) -> Array:
-        """Of a quantity that has `values` (cells,). step: width of a cell of the quantity, which spreads its weight."""
+    def quantiles(self, values: Array, shares: Sequence[float]) -> Array:
+        """Of a quantity that has `values` (cells,)."""
         unique, at = np.unique(values, return_inverse=True)
         mass = np.bincount(at, self.weight, len(unique))
         below = np.cumsum(mass) - mass / 2  # half of a cell lies below its middle

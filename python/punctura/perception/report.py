@@ -83,7 +83,8 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         lines.append(f"| {one.participant} | {one.trials} | {' | '.join(cells)} | {blocks} |")
     if not found.reason:
         means = " | ".join(words(getattr(found, key, None)) for key in keys)
-        lines.append(f"| **mean of people** | | {means} | |")
+        known = sum(not one.reason for one in found.people)
+        lines.append(f"| **mean of {known} of {len(found.people)} people** | | {means} | |")
     lines.append("")
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
     detected = [(one.participant, each) for one in found.people for each in one.detection]

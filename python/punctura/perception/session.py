@@ -23,6 +23,8 @@ from punctura.results import JsonObject
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
 MOST_BYTES = 50_000_000
+_HEADER = {"participant", "number", "digest", "version"}
+_LINE = {"trial", "block", "kind", "level", "position", "answer", "felt", "time"}
 
 
 class SessionError(PuncturaError):
@@ -42,8 +44,13 @@ class Session:
             session.add(trial, "first", felt)
     """
 
-    def __init__(self, protocol: Protocol, folder: Path, participant: str, consent: bool = False) -> None:
-        """Raises SessionError for a wrong pseudonym, another protocol, or a file that another process uses."""
+    def __init__(
+        self, protocol: Protocol, folder: Path, participant: str, consent: bool = False, simulated: bool = False
+    ) -> None:
+        """simulated: whether an observer answers; a folder has people or observers.
+
+        Raises SessionError for a wrong pseudonym, another protocol, or a file that another process uses.
+        """
         if not _PSEUDONYM.fullmatch(participant):
             raise SessionError(
                 f"{participant!r} is no pseudonym: give letters, digits, - and _, at most 40, such as P01; no name"
@@ -59,7 +66,8 @@ class Session:
                 raise SessionError(f"{self.path}: another program runs this participant's session")
             lines = self._whole_lines()
             if not lines:
-                header = _header(protocol, participant, _free_number(before - {self.path}))
+                number = _free_number(before - {self.path}, simulated)
+                header = _header(protocol, participant, number, simulated)
                 self._append(header)
                 lines = [header]
             self.header = lines[0]
@@ -71,6 +79,9 @@ class Session:
             os.close(self._descriptor)
             raise
         self.kept = self.course.at  # trials from before
+
+    def __repr__(self) -> str:
+        return f"<Session {self.path.stem}>"
 
     def __enter__(self) -> Session:
         return self
@@ -119,6 +130,7 @@ class Session:
         """The lines of the file. What a kill left of a last one is cut off."""
         if os.fstat(self._descriptor).st_size > MOST_BYTES:
             raise SessionError(f"{self.path} is too large for a session")
+        os.lseek(self._descriptor, 0, os.SEEK_SET)  # on Windows the lock has moved it
         with open(self._descriptor, "rb", closefd=False) as file:
             data = file.read()
         whole = data[: data.rfind(b"\n") + 1]
@@ -167,7 +179,7 @@ def parsed(data: bytes, path: Path) -> list[JsonObject]:
             line = json.loads(text)
         except ValueError:
             line = None
-        wanted = {"participant", "number", "digest", "version"} if number == 1 else {"trial", "level", "answer", "felt"}
+        wanted = _HEADER if number == 1 else _LINE
         if not isinstance(line, dict) or not wanted <= line.keys():
             raise SessionError(f"{path}, line {number}: is no line of a session; restore the file from a copy")
         lines.append(line)
@@ -180,27 +192,35 @@ def delete_participant(folder: Path, participant: str) -> list[Path]:
     if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
         raise SessionError(f"{folder} has no participant {participant!r}")
     names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
+    # Also of a trial that was never answered, and what a kill left of one.
+    own = re.compile(re.escape(participant) + r"-\d{4,}-\d\.parquet(\..+)?")
+    names |= {file.name for file in folder.iterdir() if own.fullmatch(file.name)}
     found = [file for name in sorted(names) if Path(name).name == name and (file := folder / name).is_file()]
     for file in [*found, path]:
         file.unlink()
     return [*found, path]
 
 
-def _header(protocol: Protocol, participant: str, number: int) -> JsonObject:
+def _header(protocol: Protocol, participant: str, number: int, simulated: bool) -> JsonObject:
     return {
         "protocol": protocol.name,
         "digest": protocol.digest,
         "participant": participant,
         "number": number,
+        "simulated": simulated,
         "version": __version__,
         "began": _now(),
         "consent": bool(protocol.file.consent),
     }
 
 
-def _free_number(paths: set[Path]) -> int:
-    """The smallest number that no session has: it decides the participant's order."""
-    used = {int(lines[0]["number"]) for path in paths if (lines := read_session(path))}
+def _free_number(paths: set[Path], simulated: bool) -> int:
+    """The smallest number that no session has: it decides the participant's order. Raises SessionError."""
+    headers = [lines[0] for path in paths if (lines := read_session(path))]
+    if any(header.get("simulated", False) != simulated for header in headers):
+        other = "people" if simulated else "simulated observers"
+        raise SessionError(f"the folder has sessions of {other}, and no report may mix both: choose another --out")
+    used = {int(header["number"]) for header in headers}
     return next(number for number in range(len(used) + 1) if number not in used)
 
 

@@ -72,5 +72,5 @@ def save_tables(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]]
     words = pa.table(dict(zip(("column", "type", "unit", "meaning"), map(list, columns), strict=True)))
     paths = [folder / name for name in TABLES]
     for path, content in zip(paths, (table, table, words), strict=True):
-        save(content, path)
+        save(content, path, private=True)
     return paths

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 from punctura import Scene
-from punctura._core import Device, ForceLimits, ServoLoop
+from punctura._core import Device, ForceLimits, ReplayDevice, ServoLoop, SimulatedDevice
 from punctura.compare.run import recorded_run
 from punctura.errors import ConfigurationError, Problem
 from punctura.events import crossing
@@ -17,7 +16,8 @@ from punctura.perception.course import Trial, counted
 from punctura.perception.protocol import Protocol, Stimulus
 from punctura.perception.session import DiskFullError, Session
 from punctura.perception.stimulus import Felt, cut_by_limits, felt
-from punctura.record import Recorder
+from punctura.record import Recorder, RecordingError
+from punctura.record.finish import part_path
 
 INTERVAL_S = 6.0  # of one stroke, if the protocol has no time
 
@@ -32,8 +32,25 @@ class Terminal(NamedTuple):
 
 
 def device_of(name: str) -> Callable[[Scene], Device]:
-    """Opens the device of a name for a scene, as `punctura run --device` does."""
-    return lambda scene: open_for(scene, name)
+    """Opens the device of a name for a scene, as `punctura run --device` does.
+
+    All intervals have one device, so the long-run limit of its force holds over all of them.
+    """
+    last: list[Device] = []
+
+    def opened(scene: Scene) -> Device:
+        if last and not isinstance(last[0], SimulatedDevice | ReplayDevice):
+            return last[0]
+        device = open_for(scene, name)
+        if last:
+            device.go_on_from(last[0])
+        last[:] = [device]
+        return device
+
+    return opened
+
+
+READY = "Hold the needle in front of the tissue, and press Enter: "
 
 
 def check_device(protocol: Protocol, limits: ForceLimits) -> None:
@@ -51,7 +68,9 @@ def run_session(protocol: Protocol, folder: Path, participant: str, terminal: Te
 
     Raises ConfigurationError before the start for levels that the device cannot show, SessionError, DeviceError.
     """
-    check_device(protocol, terminal.limits.force)
+    info, force = terminal.open_device(protocol.stimuli[0].scene).info, terminal.limits.force
+    ratings = {key: min(getattr(force, key), getattr(info, key)) for key in ("max_force", "continuous_force")}
+    check_device(protocol, force.replace(**ratings))  # a rating that is not known is NaN, and changes nothing
     say, file = terminal.say, protocol.file
     agreed = not file.consent or _consent(terminal, file.consent)
     with Session(protocol, folder, participant, agreed) as session:
@@ -68,7 +87,7 @@ def run_session(protocol: Protocol, folder: Path, participant: str, terminal: Te
             shown, names = _presented(protocol, folder, participant, trial, terminal)
             answer = _answer(protocol, terminal)
             _saved(session, trial, answer, shown, names, terminal)
-            if trial.kind == "practice" and not protocol.compares:
+            if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
                 say("Right." if counted(protocol, trial.position, answer) else "That was another one.")
         say("That was the last trial. Thank you.")
         return session.course.at
@@ -112,11 +131,13 @@ def _presented(
         shown: list[Felt] = []
         names: list[str] = []
         for i, stimulus in enumerate(trial.intervals):
-            terminal.say(f"Interval {i + 1}" if protocol.intervals > 1 else "Now")
+            which = f"Interval {i + 1} of {protocol.intervals}. " if protocol.intervals > 1 else ""
+            terminal.ask(which + READY)  # a force begins only when the person has the device in the hand
             names.append(f"{participant}-{trial.number:04d}-{i + 1}.parquet")
             found, reason = _interval(protocol, stimulus, folder / names[-1], terminal)
             if found is None:
-                terminal.say(f"The trial is repeated: {reason}")
+                # The force comes back by a person alone, docs/safety.md; and a full disk gets time.
+                terminal.ask(f"The trial is repeated: {reason.rstrip('. ')}. Press Enter when you are ready: ")
                 break
             shown.append(found)
         else:
@@ -127,26 +148,45 @@ def _interval(protocol: Protocol, stimulus: Stimulus, recording: Path, terminal:
     """One stroke on the device: what was felt, or the reason to repeat it."""
     device = terminal.open_device(stimulus.scene)
     scene = fit_conditioning(fit_direction(stimulus.scene, device)[0], device)[0]
-    recording.unlink(missing_ok=True)  # of a trial that a kill ended before its answer
+    _discard(recording)  # of a trial that a kill ended before its answer
     seconds = protocol.file.trials.interval_s
-    summary = run_live(
-        device, scene, INTERVAL_S if seconds is None else float(seconds), terminal.limits.gate_on(device),
-        terminal.limits.force, prepare=_recorder(recording),
-    )  # fmt: skip
-    reason = _spoilt(summary, scene, protocol.membrane)
-    if reason:
-        with contextlib.suppress(FileNotFoundError):
-            recording.unlink()
+    recorders: list[Recorder] = []
+    try:
+        summary = run_live(
+            device, scene, INTERVAL_S if seconds is None else float(seconds), terminal.limits.gate_on(device),
+            terminal.limits.force, prepare=_recorder(recording, recorders),
+        )  # fmt: skip
+    except RecordingError as bad:
+        return None, str(bad)
+    reason = _spoilt(summary, scene, protocol.membrane) or _unrecorded(recorders[0])
+    run = None if reason else recorded_run(recording)
+    if run is not None and run.depth[0] > 0:
+        reason = "the needle was in the tissue at the start: draw it back first"
+    if run is None or reason:
+        _discard(recording)
         return None, reason
-    return felt(recorded_run(recording), protocol.membrane, summary.force_scale), ""
+    return felt(run, protocol.membrane, summary.force_scale), ""
 
 
-def _recorder(path: Path) -> Callable[[ServoLoop], Callable[[], None]]:
+def _discard(recording: Path) -> None:
+    for path in (recording, part_path(recording)):
+        path.unlink(missing_ok=True)
+
+
+def _unrecorded(recorder: Recorder) -> str:
+    """Why a recording is not whole; empty if it is."""
+    status = recorder.status()
+    if status.finished and not status.lost:
+        return ""
+    return ": ".join(["its recording is not whole", *status.unwritten])
+
+
+def _recorder(path: Path, recorders: list[Recorder]) -> Callable[[ServoLoop], Callable[[], None]]:
     def begin(loop: ServoLoop) -> Callable[[], None]:
-        recorder = Recorder(loop, path)
+        recorders.append(Recorder(loop, path))
 
         def finish() -> None:
-            recorder.finish()
+            recorders[0].finish()
 
         return finish
 
@@ -161,7 +201,8 @@ def _spoilt(summary: RunSummary, scene: Scene, membrane: int) -> str:
         return f"{summary.lost} ticks were lost"
     if summary.limited_ticks:
         return f"the force was cut by {summary.limits_in_words}"
-    name, needed = scene.membranes[membrane].name, crossing(scene, membrane, 1.0).through
-    if summary.deepest_m[membrane] < needed:
-        return f"the needle did not go through the {name}, {needed * 1e3:.1f} mm deep"
+    if not summary.force_was_on:
+        return "the device gave no force"
+    if summary.deepest_m[membrane] < crossing(scene, membrane, 1.0).through:
+        return f"the needle did not go through the {scene.membranes[membrane].name}"  # how deep it is tells the level
     return ""

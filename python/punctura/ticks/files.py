@@ -84,19 +84,19 @@ def parquet_output_to(where: Any, schema: pa.Schema, rows_a_group: int, **option
 SUFFIXES = (".csv", ".parquet")
 
 
-def save(table: pa.Table, path: str | os.PathLike[str]) -> None:
-    """See Ticks.save."""
+def save(table: pa.Table, path: str | os.PathLike[str], private: bool = False) -> None:
+    """See Ticks.save. private: see whole_file."""
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{target} must end in {' or '.join(SUFFIXES)}")
-    with open_output(target, table.schema) as output:
+    with open_output(target, table.schema, private) as output:
         output.write(table)
 
 
 @contextmanager
-def open_output(path: Path, schema: pa.Schema) -> Iterator[Output]:
+def open_output(path: Path, schema: pa.Schema, private: bool = False) -> Iterator[Output]:
     """Opens a result file. It gets its name when it is complete; an error leaves no file."""
-    with whole_file(path) as place:
+    with whole_file(path, private=private) as place:
         if path.suffix.lower() == ".parquet":
             with parquet_output_to(place, schema, _ROWS_A_GROUP) as output:
                 yield output

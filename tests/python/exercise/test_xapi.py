@@ -31,7 +31,7 @@ def test_a_statement_has_the_parts_that_the_format_asks_for():
     assert said["object"]["id"] == "https://school.example/exercises/venipuncture"
     assert said["context"]["team"]["account"]["name"] == "9b"
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", said["timestamp"])
-    assert said["result"]["score"] == {"scaled": 1.0, "raw": 6, "min": 0, "max": 6}
+    assert said["result"]["score"] == {"scaled": 1.0, "raw": 7, "min": 0, "max": 7}
     assert said["result"]["duration"] == duration(result.metrics.total_time)
     forces = [value for key, value in said["result"]["extensions"].items() if key.endswith("/peak_force_N")]
     assert forces == [result.metrics.peak_force]

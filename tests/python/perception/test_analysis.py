@@ -116,6 +116,13 @@ def test_no_number_without_enough_answers(senses: dict[str, Senses]) -> None:
     assert all(person(guesser.protocol, "", guesser.run(i, i)).threshold is None for i in range(3))
 
 
+def test_a_catch_trial_below_the_reference_is_right_if_the_reference_is_chosen(senses: dict[str, Senses]) -> None:
+    protocol = senses["compares"].protocol
+    caught = {"kind": "catch", "block": 0, "level": 0.0, "position": 0, "answer": "second", "felt": []}
+    found = person(protocol, "", [caught, caught | {"level": 0.9}])
+    assert (found.catch_trials, found.catch_counted) == (2, 1)
+
+
 def test_dprime_and_criterion(senses: dict[str, Senses]) -> None:
     """Two normal distributions one d' apart: 84 % hits and 50 % false alarms are d' = 1 and a criterion of -0.5."""
     protocol = senses["yes"].protocol

@@ -132,6 +132,12 @@ def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: 
         Session(senses.protocol, tmp_path, "P01")
 
 
+def test_people_and_observers_have_their_own_folders(tmp_path: Path, senses: Senses) -> None:
+    Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "O01", 7)
+    with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
+        Session(senses.protocol, tmp_path, "P01")
+
+
 def test_consent_comes_first(tmp_path: Path) -> None:
     protocol: Protocol = load_protocol(written(tmp_path, 'consent = "I agree."\n' + COMPARES))
     with pytest.raises(SessionError, match="has not agreed"):

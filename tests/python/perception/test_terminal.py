@@ -14,10 +14,10 @@ from punctura import Scene
 from punctura._core import Device, ForceLimits, SimulatedDevice, Strokes
 from punctura.cli import main
 from punctura.live import RunLimits, stroke_ends
-from punctura.perception import DiskFullError, Session, load_protocol, read_session
+from punctura.perception import DiskFullError, Session, delete_participant, load_protocol, read_session
 from punctura.perception.report import write_report
 from punctura.perception.table import DICTIONARY
-from punctura.perception.terminal import Terminal, run_session
+from punctura.perception.terminal import READY, Terminal, run_session
 from punctura.record import open_recording
 
 SCALED = '[values]\n"display.force_scale" = 0.8\n'
@@ -43,6 +43,8 @@ class Person:
 
     def _ask(self, text: str) -> str:
         self.read.append(text)
+        if text.endswith(READY):
+            return ""
         typed = next(self._typed, None)
         if typed is None:
             raise EOFError
@@ -82,12 +84,12 @@ def test_no_consent_no_session(tmp_path: Path) -> None:
 
 def test_an_interval_that_was_not_explored_is_repeated(tmp_path: Path) -> None:
     protocol = load_protocol(written(tmp_path, YES + SCALED))
-    shares = iter([0.6, 1.0, 1.0])
-    person = Person(["y"], lambda scene: hand(scene, next(shares)))
+    shares = iter([1.0, 0.6, 1.0, 1.0])  # the first device tells its ratings alone
+    person = Person(["", "y"], lambda scene: hand(scene, next(shares)))
     with pytest.raises((EOFError, StopIteration)):
         run_session(protocol, tmp_path / "out", "P01", person.terminal)
     (repeated,) = [line for line in person.read if line.startswith("The trial is repeated")]
-    assert "did not go through the thin membrane" in repeated
+    assert "did not go through the thin membrane. Press Enter" in repeated
     lines = read_session(tmp_path / "out" / "P01.jsonl")[1:]
     assert len(lines) == 1 and len(lines[0]["recordings"]) == 1
 
@@ -96,14 +98,50 @@ def test_a_force_that_a_limit_cut_is_repeated(tmp_path: Path, monkeypatch: pytes
     protocol = load_protocol(written(tmp_path, YES + SCALED))
     monkeypatch.setattr("punctura.perception.terminal.check_device", lambda *_: None)
     person = Person([])
-    devices = iter([hand])
-    person.terminal = person.terminal._replace(
-        limits=RunLimits(ForceLimits(max_force=0.2)), open_device=lambda scene: next(devices)(scene)
-    )
-    with pytest.raises(StopIteration):
+    person.terminal = person.terminal._replace(limits=RunLimits(ForceLimits(max_force=0.2)))
+    with pytest.raises(EOFError):  # nothing comes before a person presses Enter
         run_session(protocol, tmp_path / "out", "P01", person.terminal)
     assert any("repeated: the force was cut by the peak limit" in line for line in person.read)
     assert not list((tmp_path / "out").glob("*.parquet"))
+
+
+def test_what_a_kill_left_of_a_recording_gives_way_and_is_deleted_with_the_participant(tmp_path: Path) -> None:
+    protocol, folder = load_protocol(written(tmp_path, YES + SCALED)), tmp_path / "out"
+    with pytest.raises(EOFError):
+        run_session(protocol, folder, "P01", Person([]).terminal)
+    (recording,) = folder.glob("*.parquet")  # of a trial without an answer
+    part = folder / f"{recording.name}.part"
+    part.write_bytes(b"no recording" * 10)
+    with pytest.raises(EOFError):
+        run_session(protocol, folder, "P01", Person(["y"]).terminal)
+    assert len(read_session(folder / "P01.jsonl")) == 2 and not part.exists()
+    part.touch()
+    delete_participant(folder, "P01")
+    assert not list(folder.iterdir())
+
+
+def test_a_rating_in_practice_is_neither_right_nor_wrong(tmp_path: Path) -> None:
+    text = COMPARES.replace('"two_intervals"', '"rating"').replace("reference = 0.41\n", "")
+    protocol = load_protocol(written(tmp_path, text.replace("blocks = 2", "blocks = 2\npractice = 1") + SCALED))
+    person = Person(["5"])
+    with pytest.raises(EOFError):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    assert "Right." not in person.read and "That was another one." not in person.read
+
+
+def test_a_needle_that_begins_in_the_tissue_repeats_the_trial(tmp_path: Path) -> None:
+    def inside(scene: Scene) -> Device:
+        start, end = stroke_ends(scene)
+        behind = tuple(0.1 * a + 0.9 * b for a, b in zip(start, end, strict=True))
+        motion = Strokes(behind, end, count=1, duration=0.8, rest=0.6)
+        return SimulatedDevice(
+            motion, rate=scene.servo.rate, real_time=False, ticks=1000, axis=scene.membranes[0].inward_normal
+        )
+
+    protocol, person = load_protocol(written(tmp_path, YES + SCALED)), Person([], inside)
+    with pytest.raises(EOFError):
+        run_session(protocol, tmp_path / "out", "P01", person.terminal)
+    assert any("the device gave no force" in line for line in person.read)
 
 
 def test_a_full_disk_asks_before_it_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
