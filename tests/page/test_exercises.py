@@ -85,7 +85,7 @@ def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page
         if dialog.count():
             break
     expect(dialog.locator(".trace-place")).to_contain_text("Dashed: the expert")
-    passed = 2 - dialog.get_by_text("not passed").count()  # a slow computer may pass it on the way
+    passed = 2 - (dialog.get_by_text("not passed").count() > 0)  # a slow computer may pass it on the way
     dialog.get_by_role("button", name="Replay").click()
     expect(page.get_by_role("group", name="Replay")).to_be_visible()
     expect(page.locator(".force-depth .plot-legend")).to_contain_text("expert")
