@@ -41,7 +41,7 @@ export function traceDrawing(
       ...(expert ? ["Dashed: the expert’s run, from its first contact on. "] : []),
       trace.tip > 0
         ? "The line is the depth of the point, the band above it the rest of the tip, as the goals judge them: " +
-            "a wall that the tip only pushes ahead is not passed."
+            "a wall that the tip only pushes ahead is still in front of it."
         : "This is the tip’s depth. Goals use the model’s depth: the tip pushes a wall ahead before it pierces it.",
     ),
   );
