@@ -12,17 +12,14 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect, sync_playwright
+from playwright.sync_api import Browser, expect
 
 HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
-sys.path[:0] = [str(ROOT / "tools"), str(HERE)]
+sys.path[:0] = [str(HERE)]
 
-from chromium import launch  # noqa: E402
 from test_page import served  # noqa: E402
 
 PAGE = """<!doctype html>
@@ -40,26 +37,17 @@ async function example() {{
 }}
 example().catch((error) => forces.append(String(error)));
 """
-# Bundler: its packages, its command, the folder that is served, and the script that the page then loads.
+# Bundler: its packages, its command, and the script that a page loads from its folder dist.
 BUNDLERS = {
-    "vite": (["vite@7"], ["vite", "build"], "dist", None),
-    "webpack": (["webpack@5", "webpack-cli@6"], ["webpack", "--mode", "production"], "dist", "main.js"),
-    "esbuild": (["esbuild@0.25"], ["esbuild", "src/index.js", "--bundle", "--outfile=dist/main.js"], "dist", "main.js"),
+    "vite": (["vite@7"], ["vite", "build"], None),
+    "webpack": (["webpack@5", "webpack-cli@6"], ["webpack", "--mode", "production"], "main.js"),
+    "esbuild": (["esbuild@0.25"], ["esbuild", "src/index.js", "--bundle", "--outfile=dist/main.js"], "main.js"),
     "esbuild, modules": (
         ["esbuild@0.25"],
         ["esbuild", "src/index.js", "--bundle", "--format=esm", "--outfile=dist/main.js"],
-        "dist",
         "main.js",
     ),
 }
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")
@@ -72,20 +60,20 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / name.stdout.strip()
 
 
-def project(folder: Path, package: Path, packages: list[str], script: str) -> None:
+def project(folder: Path, package: Path, packages: list[str]) -> None:
     """A project of a stranger: the example, with the package from node_modules."""
     (folder / "src").mkdir()
     (folder / "package.json").write_text(json.dumps({"private": True, "type": "module"}), encoding="utf-8")
     example = re.sub(r"(?m)^import .*$", "", (HERE / "example.mjs").read_text(encoding="utf-8"))
     (folder / "src" / "index.js").write_text(FUNCTION.format(example), encoding="utf-8")
-    (folder / "index.html").write_text(PAGE.format(script), encoding="utf-8")
+    (folder / "index.html").write_text(PAGE.format("/src/index.js"), encoding="utf-8")
     install = ["npm", "install", "--silent", "--no-audit", "--no-fund", "--prefer-offline", str(package), *packages]
     subprocess.run(install, cwd=folder, check=True)
 
 
-def greatest_force(chromium: Browser, address: str) -> float:
+def greatest_force(browser: Browser, address: str) -> float:
     """The largest number of the example's list, N."""
-    page = chromium.new_page()
+    page = browser.new_page()
     page.goto(address)
     forces = page.locator("#forces")
     expect(forces).to_contain_text("8.0 mm", timeout=60_000)
@@ -95,26 +83,26 @@ def greatest_force(chromium: Browser, address: str) -> float:
 
 
 @pytest.mark.parametrize("bundler", BUNDLERS)
-def test_a_page_that_a_bundler_made_has_the_forces(bundler, package, chromium, tmp_path):
-    packages, command, dist, script = BUNDLERS[bundler]
-    project(tmp_path, package, packages, "/src/index.js")
+def test_a_page_that_a_bundler_made_has_the_forces(bundler, package, browser, tmp_path):
+    packages, command, script = BUNDLERS[bundler]
+    project(tmp_path, package, packages)
     made = subprocess.run(["npx", "--no-install", *command], cwd=tmp_path, check=True, capture_output=True, text=True)
     assert "Critical dependency" not in made.stdout + made.stderr  # a warning of webpack
     if script is not None:
-        (tmp_path / dist / "index.html").write_text(PAGE.format(script), encoding="utf-8")
-    with served(tmp_path / dist) as address:
-        assert 0.4 < greatest_force(chromium, address) < 1
+        (tmp_path / "dist" / "index.html").write_text(PAGE.format(script), encoding="utf-8")
+    with served(tmp_path / "dist") as address:
+        assert 0.4 < greatest_force(browser, address) < 1
 
 
-def test_vites_server_for_developers_has_the_forces(package, chromium, tmp_path):
-    project(tmp_path, package, BUNDLERS["vite"][0], "/src/index.js")
+def test_vites_server_for_developers_has_the_forces(package, browser, tmp_path):
+    project(tmp_path, package, BUNDLERS["vite"][0])
     plain = {**os.environ, "NO_COLOR": "1"}
     command = [str(tmp_path / "node_modules" / ".bin" / "vite"), "--port", "0"]
     server = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True, env=plain)
     try:
         assert server.stdout is not None
         address = next(found[0] for line in server.stdout if (found := re.search(r"http://localhost:\d+/", line)))
-        assert 0.4 < greatest_force(chromium, address) < 1
+        assert 0.4 < greatest_force(browser, address) < 1
     finally:
         server.terminate()
         server.wait()

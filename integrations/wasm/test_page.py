@@ -18,12 +18,11 @@ from pathlib import Path
 import numpy as np
 import punctura as pn
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE.parents[1] / "tools"), str(HERE.parents[1] / "tests" / "page")]
 
-from chromium import launch  # noqa: E402
 from person import PATIENCE, drag_in, events, newton, opened, saved, tab, ticks_come  # noqa: E402
 
 expect.set_options(timeout=PATIENCE)
@@ -50,14 +49,6 @@ def folder(request: pytest.FixtureRequest) -> Path:
     given = request.config.getoption("--page")
     assert given, "name the folder of the page: --page FOLDER"
     return Path(given)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        launched = launch(playwright)
-        yield launched
-        launched.close()
 
 
 @pytest.fixture(scope="module")
