@@ -7,6 +7,7 @@ import json
 import re
 from collections.abc import Mapping
 from decimal import Decimal
+from typing import Generic, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
@@ -15,6 +16,8 @@ from punctura.errors import MISSING, Problem
 from punctura.files.toml import Location
 from punctura.files.units import split_key
 
+Root = TypeVar("Root", bound=BaseModel)
+
 
 class Table(BaseModel):
     """A table of a file. It rejects unknown keys and wrong types."""
@@ -22,12 +25,12 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
-class Schema:
+class Schema(Generic[Root]):
     """A file's schema: the root model, and the tables by key."""
 
     def __init__(
         self,
-        root: type[BaseModel],
+        root: type[Root],
         tables: Mapping[str, type[BaseModel]] | None = None,
         lists: Mapping[str, type[BaseModel]] | None = None,
     ) -> None:
@@ -35,6 +38,13 @@ class Schema:
         self._root = root
         self._tables = dict(tables or {}) | dict(lists or {})
         self.heads = {key: f"[{key}]" for key in tables or {}} | {key: f"[[{key}]]" for key in lists or {}}
+
+    def checked(self, tables: Mapping[str, object]) -> tuple[Root | None, list[Problem]]:
+        """The file of the tables, or None and its problems."""
+        try:
+            return self._root.model_validate(tables), []
+        except ValidationError as error:
+            return None, [problem for _, problem in self.problems(error)]
 
     def problems(self, error: ValidationError) -> list[tuple[Location, Problem]]:
         """The problems, each with its place in the file."""

@@ -9,8 +9,6 @@ from decimal import Decimal
 from functools import partial
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
@@ -43,12 +41,7 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
         reason = f"no file and no ready protocol has this name; ready protocols: {', '.join(protocol_names())}"
         raise ConfigurationError([Problem("", MISSING, reason)], str(path))
     tables = read_tables(path, "protocol")
-    file: ProtocolFile | None = None
-    problems: list[Problem] = []
-    try:
-        file = ProtocolFile.model_validate(tables)
-    except ValidationError as error:
-        problems += [problem for _, problem in SCHEMA.problems(error)]
+    file, problems = SCHEMA.checked(tables)
     scene, found = scene_of(tables, path)
     problems += found
     if file is None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from punctura._core import Hand, Plant, Scene, Strokes, batch_paths
 from punctura.batches.result import result_names
@@ -100,12 +100,7 @@ def load_plan(path: str | os.PathLike[str]) -> Plan:
     """Loads a plan file. Raises ConfigurationError with all problems."""
     path = Path(path)
     tables = read_tables(path, "plan")
-    problems: list[Problem] = []
-    file: PlanFile | None = None
-    try:
-        file = PlanFile.model_validate(tables)
-    except ValidationError as error:
-        problems += [problem for _, problem in SCHEMA.problems(error)]
+    file, problems = SCHEMA.checked(tables)
     scene, found = scene_of(tables, path)
     problems += found
     if file is not None:
