@@ -6,7 +6,7 @@ const LOUD_WATT = 0.012; // W, full volume: friction of 0.5 N at 25 mm/s
 const FOLLOW_S = 0.03;
 const CLICK_S = 0.09;
 const FULL_DROP = 0.5; // N
-const GESTURES = ["pointerup", "keydown"] as const; // with which a browser lets a page play sound
+const GESTURES = ["mousedown", "pointerup", "keydown"] as const; // with which a browser lets a page play sound
 
 /**
  * Plays friction as noise and pops as clicks. The volume follows the friction's power and the pop's drop. The audio
