@@ -84,7 +84,7 @@ def draw(batch: dict[str, Any], out: Path) -> None:
         plot(figure.subplots(), batch)
         path = out / f"performance-{name}.svg"
         figure.savefig(path, metadata={"Date": None}, facecolor="white")
-        text = "\n".join(line.rstrip() for line in path.read_text(encoding="utf-8").splitlines())
+        text = " ".join(path.read_text(encoding="utf-8").split())  # matplotlib begins a line at each point of a curve
         path.write_text(text + "\n", encoding="utf-8")
         print(path)
 

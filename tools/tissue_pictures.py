@@ -1,6 +1,6 @@
-"""The picture of docs/measured-tissue.md: what each addition does to the force.
+"""Draws docs/images/measured-tissue.svg, the picture of docs/measured-tissue.md: what each addition does to the force.
 
-python docs/site/tissue_curves.py     writes docs/images/measured-tissue.svg
+python tools/tissue_pictures.py
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ import punctura as pn
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from punctura._core import TraceModel
+from validation_pictures import save
 
-PICTURE = Path(__file__).resolve().parents[1] / "images" / "measured-tissue.svg"
+PICTURE = Path(__file__).resolve().parents[1] / "docs/images/measured-tissue.svg"
 NEEDLE = pn.Needle(diameter=1.27e-3, tip_angle=0.3)
 K06 = {"stiffness": 400.0, "precompression": 0.1, "friction": 0.2, "thickness": 0.5e-3, "tail_floor": 1.0}
 PLAIN, CHANGED = "#8c959f", "#2f81f7"
@@ -65,8 +66,7 @@ def profile(axes: Axes) -> None:
     axes.set_title("a profile of 8 knots", fontsize=9)
 
 
-def draw(path: Path = PICTURE) -> None:
-    """Writes the picture."""
+def main() -> None:
     matplotlib.use("agg")
     with plt.rc_context({"svg.hashsalt": "punctura", "font.size": 8}):
         figure, all_axes = plt.subplots(2, 3, figsize=(9, 5), sharex=True, sharey=True, layout="constrained")
@@ -82,9 +82,9 @@ def draw(path: Path = PICTURE) -> None:
             axes.legend(fontsize=7, frameon=False)
         figure.supxlabel("depth of the tip, mm", fontsize=9)
         figure.supylabel("force that resists insertion, N", fontsize=9)
-        figure.savefig(path, facecolor="white", metadata={"Date": None})
+        save(figure, PICTURE)
         plt.close(figure)
 
 
 if __name__ == "__main__":
-    draw()
+    main()
