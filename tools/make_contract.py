@@ -178,9 +178,14 @@ def messages() -> dict[str, Any]:
 
 
 def main(argv: list[str] | None = None) -> int:
-    files = {"frames.json": frames(), "messages.json": messages()}
-    texts = {name: json.dumps(data, indent=1, ensure_ascii=False) + "\n" for name, data in files.items()}
+    lists = ",\n".join(f'"{name}": {rows(data)}' for name, data in messages().items())
+    texts = {"frames.json": f"{rows(frames())}\n", "messages.json": f"{{{lists}}}\n"}
     return write(__file__, __doc__, {f"tests/contract/{name}": text for name, text in texts.items()}, argv)
+
+
+def rows(data: list[Any]) -> str:
+    """A JSON list with one entry a line."""
+    return "[\n" + ",\n".join(json.dumps(one, ensure_ascii=False) for one in data) + "\n]"
 
 
 if __name__ == "__main__":
