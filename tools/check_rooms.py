@@ -61,6 +61,7 @@ ROOMS = (
     "python/punctura/rivals",
     "python/punctura/compare",
     "python/punctura/study",
+    "python/punctura/ready_protocols",
     "python/punctura/perception",
     "python/punctura/studio/wire",
     "python/punctura/studio",

@@ -37,15 +37,14 @@ Seed = Annotated[int, typer.Option(min=0, help="Of the observers.")]
 @command.command("list")
 def list_protocols(as_json: Json = False) -> None:
     """Lists the ready protocols."""
-    from punctura.perception.load import protocol_files
+    from punctura.ready_protocols import protocol_files, protocol_titles
 
-    entries = [{"name": path.stem, "title": title, "file": str(path)} for path, title in protocol_files()]
+    titles, files = protocol_titles(), protocol_files()
     if as_json:
-        typer.echo(json.dumps(entries, indent=2))
+        typer.echo(json.dumps([{"name": n, "title": titles[n], "file": str(files[n])} for n in titles], indent=2))
         return
-    width = max(len(entry["name"]) for entry in entries)
-    for entry in entries:
-        typer.echo(f"{entry['name']:{width}}  {entry['title']}")
+    for name, title in titles.items():
+        typer.echo(f"{name:{max(map(len, titles))}}  {title}")
 
 
 @command.command()

@@ -14,9 +14,9 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
 from punctura.perception.protocol import ANSWERS, SCHEMA, Protocol, ProtocolFile, Stimulus
 from punctura.perception.stimulus import QUANTITIES, built, simulated, solved
+from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
-_FOLDER = Path(__file__).parents[1] / "ready_protocols"
 LEAST = {"constant": 40, "staircase": 40, "quest": 20}  # scored trials for a fit, docs/decisions/perception.md
 LEAST_LEVELS = 3
 MOST_LEVELS, MOST_TRIALS = 100, 10_000
@@ -24,20 +24,13 @@ MOST_LEVELS, MOST_TRIALS = 100, 10_000
 
 def protocol_names() -> list[str]:
     """Names of the ready protocols, for load_protocol."""
-    return sorted(file.stem for file in _FOLDER.glob("*.toml"))
-
-
-def protocol_files() -> list[tuple[Path, str]]:
-    """The files of the ready protocols, each with its title."""
-    paths = [_FOLDER / f"{name}.toml" for name in protocol_names()]
-    return [(path, str(read_tables(path, "protocol")["title"])) for path in paths]
+    return list(protocol_files())
 
 
 def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     """Loads a ready protocol by its name, or a file. Raises ConfigurationError with all problems."""
-    ready = isinstance(name_or_path, str) and name_or_path in protocol_names()
-    path = _FOLDER / f"{name_or_path}.toml" if ready else Path(name_or_path)
-    if not ready and not path.suffix and not path.exists():
+    path = protocol_files().get(str(name_or_path), Path(name_or_path))
+    if not path.suffix and not path.exists():
         reason = f"no file and no ready protocol has this name; ready protocols: {', '.join(protocol_names())}"
         raise ConfigurationError([Problem("", MISSING, reason)], str(path))
     tables = read_tables(path, "protocol")

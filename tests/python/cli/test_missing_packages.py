@@ -56,6 +56,7 @@ CALLS = {
     "measure any.csv": FILES,
     "paths": NOTHING,
     "perception check pop-jnd": ("scipy", "study"),
+    "perception list": NOTHING,
     "place --device simulated --out placement.toml": NOTHING,
     "replay any.parquet": FILES,
     "reproduce --out out": ("matplotlib", "plots"),
