@@ -31,8 +31,10 @@ ANGLED = [name for name in exercise_names() if any(g.kind == "entry_angle" for g
 
 
 @cache
-def run(name, legs, tilt=0.0, aside=True):
-    """tilt: rad, by which the needle is turned from the angle that is asked, about its tip at the start."""
+def run(name, legs, tilt=0.0, aside=True, turn=0.0):
+    """tilt: rad, by which the needle leans from the angle that is asked, about its tip at the start. turn: rad, about
+    the first membrane's normal through the place where the needle points at the honest end.
+    """
     exercise = load_exercise(name)
     axis = np.asarray(exercise.start_axis)
     if tilt:
@@ -41,7 +43,12 @@ def run(name, legs, tilt=0.0, aside=True):
         flat = unit(axis - (axis @ normal) * normal) if abs(axis @ normal) < 0.999 else unit(across)
         angle = np.arcsin(axis @ normal) - tilt
         axis = normal * np.sin(angle) + flat * np.cos(angle)
-    motion = motion_of(exercise, [WAIT, *legs], axis, ASIDE.get(name, (0.0, 0.0, 0.0)) if aside else (0.0, 0.0, 0.0))
+    away = np.asarray(ASIDE.get(name, (0.0, 0.0, 0.0)) if aside else (0.0, 0.0, 0.0))
+    if turn:
+        straight, end = axis, legs[1][1]
+        axis = axis @ [[np.cos(turn), 0, -np.sin(turn)], [0, 1, 0], [np.sin(turn), 0, np.cos(turn)]]
+        away = away + (straight - axis) * end
+    motion = motion_of(exercise, [WAIT, *legs], axis, tuple(away))
     seconds = sum(s for s, _ in (WAIT, *legs))
     columns = experiment(as_a_device_runs_it(exercise.scene), motion, seconds, axis)
     return with_thumb(columns, 20, 4.0, 0.15) if name == "epidural-plunger" else columns
@@ -107,6 +114,23 @@ def test_a_wrong_angle_does_not_pass(name, tilt):
     assert any(remark.about == "angle" for remark in made.coaching.change)
 
 
+@pytest.mark.parametrize("name", ["vein-15", "venipuncture", "vein-45", "rolling-vein"])
+def test_a_needle_that_comes_across_the_vein_does_not_pass(name):
+    made = result(name, run(name, HONEST[name], turn=np.radians(60)))
+    assert not made.passed
+    assert made.reasons[0].startswith("You entered with the needle turned by 60 degrees to the side; at most 20")
+    assert any("turn it back first" in remark.text for remark in made.coaching.change)
+
+
+def test_a_steady_push_that_slides_to_the_side_does_not_pass():
+    columns = run("steady-push", HONEST["steady-push"])
+    slide = np.clip(np.arange(len(columns["tick"])) / 1600 - 6, 0, 4)[:, None] * [2e-3, 0, 0]
+    made = result("steady-push", columns | {"tip": columns["tip"] + slide})
+    assert not made.passed
+    assert made.reasons[0] == "The tip went more than 3.0 mm to the side of its line of entry."
+    assert any("push along the needle" in remark.text for remark in made.coaching.change)
+
+
 @pytest.mark.parametrize("name", ["vein-15", "venipuncture", "vein-45"])
 def test_a_point_that_slides_out_of_the_side_of_the_vein_does_not_pass(name):
     columns = run(name, HONEST[name])
@@ -124,7 +148,7 @@ def test_a_needle_that_is_not_moved_aside_misses_the_rolling_vein():
 
 
 WORDS = {  # what the words of an exercise promise, and the goal that judges it
-    " degrees": "entry_angle", "straight": "entry_angle", "slowly": "speed", "without a pause": "no_pause",
+    " degrees": "entry_angle", "straight down": "straight", "slowly": "speed", "without a pause": "no_pause",
     "middle of the vein": "on_line", "stop at once": "stop_after_pop", "plunger": "feel_plunger",
 }  # fmt: skip
 

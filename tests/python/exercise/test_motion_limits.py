@@ -29,6 +29,11 @@ def leaning():
     return columns | {"axis": turned, "direction": np.tile(turned[:, None], (1, len(SCENE.membranes), 1))}
 
 
+def sliding():
+    columns = straight()
+    return columns | {"tip": columns["tip"] + np.clip(columns["time"] - 1, 0, 1.1e-3)[:, None] * [0, 0, 1]}
+
+
 def waiting(seconds):
     """A needle that stops on the way, 3 mm deep."""
     parts = ideal(SCENE, (0, 5, 0), (0, -3, 0), stops=seconds), ideal(SCENE, (0, -3, 0), (0, -7, 0), stops=1)
@@ -39,6 +44,9 @@ def waiting(seconds):
 
 GOALS = {
     "entry_angle": (goal("entry_angle", within_deg=5), straight, leaning, "You entered at 80 degrees; 90 are asked"),
+    "straight": (
+        goal("straight", within_mm=1), straight, sliding, "The tip went more than 1.0 mm to the side of its line"
+    ),
     "speed": (
         goal("speed", at_most_mm_per_s=20), straight, lambda: straight(30e-3), "You pushed in faster than 20 mm/s"
     ),

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from punctura.exercise.goals.goal import Course, Given, Goal
 from punctura.exercise.goals.hand import EntryAngle, MostSpeed, NoPause, PeakForce, TimeLimit
-from punctura.exercise.goals.line import OnLine
+from punctura.exercise.goals.line import OnLine, Straight
 from punctura.exercise.goals.plunger import FeelPlunger, StopPlunger
 from punctura.exercise.goals.reach import Reach, Stay
 from punctura.exercise.goals.walls import Entries, MostDepth, NeverPass, StopAfterPop
@@ -20,6 +20,7 @@ AnyGoal = Annotated[
     | StopPlunger
     | FeelPlunger
     | OnLine
+    | Straight
     | PeakForce
     | MostSpeed
     | EntryAngle

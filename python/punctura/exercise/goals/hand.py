@@ -12,10 +12,10 @@ from punctura.events import Event
 from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
 from punctura.exercise.goals.goal import Course, Goal, LimitJudge, SoFar
 from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
-from punctura.exercise.quantities import speed
+from punctura.exercise.quantities import degrees, speed
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import STEADILY, Seen, off_angle
-from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, TargetSpace, by, first_of
+from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, Numbers, TargetSpace, by, first_of
 
 ROUNDING_RAD = 1e-9
 SPEED_MEAN_S = 0.1  # over which a speed is measured: a period of tremor, or nearly
@@ -23,15 +23,16 @@ PAUSE_MEAN_S = 0.25  # over which a speed is measured: longer than a period of t
 
 
 class EntryAngle(Goal):
-    """At each entry into the first membrane, the needle has this angle to its surface."""
+    """At each entry into the first membrane, the needle has this angle to its surface, and the start's heading."""
 
     kind: Literal["entry_angle"]
     angle_deg: Angle | None = None  # default: the angle of the start
     within_deg: Annotated[Tolerance, asked("Enter at this angle, within degrees")]
+    turned_at_most_deg: Tolerance | None = None  # from the start's heading; default: any heading
 
     def judge(self, course: Course) -> AngleJudge:
         asked = course.start.angle_deg if self.angle_deg is None else self.angle_deg
-        return AngleJudge(self, asked, course.scene.membranes[0].name)
+        return AngleJudge(self, asked, course)
 
     @property
     def entry_deg(self) -> float | None:
@@ -41,11 +42,26 @@ class EntryAngle(Goal):
 class AngleJudge(LimitJudge):
     """Judges each entry into the first membrane."""
 
-    def __init__(self, goal: EntryAngle, asked_deg: float, name: str) -> None:
-        super().__init__(goal.text or f"Enter the {name} at {asked_deg:g} degrees, within {goal.within_deg:g} degrees")
-        self.asked_deg, self.within_deg = asked_deg, goal.within_deg
+    def __init__(self, goal: EntryAngle, asked_deg: float, course: Course) -> None:
+        first = course.scene.membranes[0]
+        asked = f"Enter the {first.name} at {asked_deg:g} degrees, within {goal.within_deg:g} degrees"
+        most = goal.turned_at_most_deg
+        super().__init__(goal.text or asked + (f", turned by at most {most:g} degrees" if most else ""))
+        self.asked_deg, self.within_deg, self.turned_at_most_deg = asked_deg, goal.within_deg, most
         self.entered: float | None = None  # rad, of the first wrong entry
+        self.turned: float | None = None  # rad from the start's heading, of the first entry that is turned too far
         self._first: Moment | None = None
+        self._normal, self._heading = np.asarray(first.inward_normal, np.float64), np.asarray(course.start.heading)
+
+    def _turned(self, held: Numbers) -> float:
+        """The angle between the needle and the start's heading, seen along the normal, rad.
+
+        A needle has no heading if it is upright within the tolerance of its angle: 0.
+        """
+        along, asked = (v - (v @ self._normal) * self._normal for v in (held, self._heading))
+        if np.linalg.norm(along) <= math.sin(math.radians(self.within_deg)):
+            return 0.0
+        return math.atan2(float(np.linalg.norm(np.cross(asked, along))), float(asked @ along))
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         for event in events:
@@ -53,22 +69,32 @@ class AngleJudge(LimitJudge):
                 continue
             when = Moment(event.tick, event.time)
             self._first = self._first or when
-            angle = float(ticks.angle[np.searchsorted(ticks.tick, event.tick)])
+            row = np.searchsorted(ticks.tick, event.tick)
+            angle, turned = float(ticks.angle[row]), self._turned(ticks.held[row])
             if not math.isfinite(angle):
                 self.unseen = self.unseen or when
+            elif self.missed is not None:
+                continue
             elif abs(angle - math.radians(self.asked_deg)) > math.radians(self.within_deg) + ROUNDING_RAD:
-                self.entered = angle if self.missed is None else self.entered
-                self.missed = self.missed or when
+                self.entered, self.missed = angle, when
+            elif self.turned_at_most_deg and turned > math.radians(self.turned_at_most_deg) + ROUNDING_RAD:
+                self.turned, self.missed = turned, when
 
     def measured(self, until: Moment | None) -> bool:
         return by(self._first, until) and super().measured(until)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        if self.turned is not None:
+            turned = f"You entered with the needle turned by {degrees(self.turned)} to the side"
+            return f"{turned}; at most {self.turned_at_most_deg:g} are allowed."
         entered = math.degrees(self.entered or 0.0)
         return f"You entered at {entered:.0f} degrees; {self.asked_deg:g} are asked, within {self.within_deg:g}."
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
-        if self.entered is not None:
+        if self.turned is not None:
+            text = f"You entered with the needle turned by {degrees(self.turned)} to the side: turn it back first."
+            yield Remark(about="angle", text=text, numbers={"turned_rad": self.turned})
+        elif self.entered is not None:
             yield from off_angle(self.entered, seen)
 
 

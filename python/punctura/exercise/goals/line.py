@@ -1,9 +1,10 @@
-"""The goal `on_line`: the point is not far to the side of a line while it is in the space."""
+"""Goals about a line: on_line (a line of the scene), straight (the line of entry)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from itertools import pairwise
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from punctura import Scene
 from punctura._core import grazing_cosine
 from punctura.errors import Problem
 from punctura.events import Event
-from punctura.exercise.fields import Distance, Vector, no_direction
+from punctura.exercise.fields import Distance, Vector, asked, no_direction
 from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar
 from punctura.exercise.quantities import mm, tenths
 from punctura.exercise.result import Remark
@@ -133,3 +134,55 @@ class LineJudge(LimitJudge):
         if self.farthest is not None:
             text = f"You hit the middle of {seen.space.name}: at most {mm(self.farthest)} beside its middle line."
             yield Remark(about="line", text=text, numbers={"beside_m": self.farthest, "allowed_m": self.within})
+
+
+class Straight(Goal):
+    """In the tissue, the point is never farther than this to the side of the line of its entry."""
+
+    kind: Literal["straight"]
+    within_mm: Annotated[Distance, asked("Stay on the line of entry, within mm")]
+
+    def judge(self, course: Course) -> StraightJudge:
+        return StraightJudge(self)
+
+
+class StraightJudge(LimitJudge):
+    """Judges each way in the tissue: its line is the needle's as it touches the first membrane."""
+
+    def __init__(self, goal: Straight) -> None:
+        super().__init__(goal.text or f"Stay within {goal.within_mm:g} mm of the line of entry")
+        self.within = goal.within_mm * 1e-3
+        self.farthest = 0.0  # m, up to the first miss
+        self._entry: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # point, m, and direction
+        self._first: Moment | None = None
+
+    def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
+        touches = [event for event in events if event.what == "touch" and event.membrane == 0]
+        if touches and self._first is None:
+            self._first = Moment(touches[0].tick, touches[0].time)
+        aside = np.zeros(len(ticks))
+        cuts = [int(row) for row in np.searchsorted(ticks.tick, [event.tick for event in touches])]
+        for k, (start, stop) in enumerate(pairwise([0, *cuts, len(ticks)])):
+            if k:
+                self._entry = ticks.tip[start], ticks.held[start]
+            if self._entry is not None:
+                offset = ticks.tip[start:stop] - self._entry[0]
+                aside[start:stop] = np.linalg.norm(np.cross(offset, self._entry[1]), axis=1)
+        self._watch(ticks, np.isfinite(aside))
+        here = ticks.inside.any(axis=1)
+        if self.missed is None and here.any():
+            self.farthest = max(self.farthest, float(np.fmax.reduce(aside[here])))
+        self._miss(ticks, here & (aside > self.within))
+
+    def measured(self, until: Moment | None) -> bool:
+        return by(self._first, until) and super().measured(until)
+
+    def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
+        return f"The tip went more than {mm(self.within)} to the side of its line of entry."
+
+    def corrections(self, seen: Seen) -> Iterator[Remark]:
+        text = (
+            f"The tip went {mm(self.farthest)} to the side of its line of entry; {mm(self.within)} are allowed: push "
+            "along the needle, and hold it there."
+        )
+        yield Remark(about="aside", text=text, numbers={"aside_m": self.farthest, "allowed_m": self.within})
