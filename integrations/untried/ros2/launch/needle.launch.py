@@ -8,5 +8,13 @@ from launch_ros.actions import Node
 
 def generate_launch_description() -> LaunchDescription:
     scene = DeclareLaunchArgument("scene", default_value="venipuncture", description="a scene file or a ready scene")
-    node = Node(package="punctura_ros", executable="needle", parameters=[{"scene": LaunchConfiguration("scene")}])
-    return LaunchDescription([scene, node])
+    reliability = DeclareLaunchArgument(
+        "reliability", default_value="reliable", choices=["reliable", "best_effort"],
+        description="of the poses: best_effort also gets those of senders that offer no more",
+    )  # fmt: skip
+    parameters = {
+        "scene": LaunchConfiguration("scene"),
+        "qos_overrides./needle_pose.subscription.reliability": LaunchConfiguration("reliability"),
+    }
+    node = Node(package="punctura_ros", executable="needle", parameters=[parameters])
+    return LaunchDescription([scene, reliability, node])

@@ -10,7 +10,10 @@ from punctura import load_scene
 from punctura.poses import PosedNeedle
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.qos import QoSPolicyKind
+from rclpy.qos_overriding_options import QoSOverridingOptions
 
+_QOS = (QoSPolicyKind.RELIABILITY, QoSPolicyKind.DURABILITY, QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH)
 _HOLD_S = 0.1  # between two answers at a held pose
 
 
@@ -46,8 +49,9 @@ class NeedleNode(Node):
         self._last: tuple[PoseStamped, float, float] | None = None  # the last pose, its time and the clock then
         self._axis = np.array(self.get_parameter("tool_axis").value, float)
         self._frame = self.get_parameter("frame_id").value
-        self._publisher = self.create_publisher(WrenchStamped, "needle_wrench", 10)
-        self.create_subscription(PoseStamped, "needle_pose", self.on_pose, 10)
+        chosen = QoSOverridingOptions(_QOS)  # by parameters qos_overrides.TOPIC.subscription.reliability, ...
+        self._publisher = self.create_publisher(WrenchStamped, "needle_wrench", 10, qos_overriding_options=chosen)
+        self.create_subscription(PoseStamped, "needle_pose", self.on_pose, 10, qos_overriding_options=chosen)
         if self._needle.hold_last_pose:
             self.create_timer(_HOLD_S, self.on_timer)
         self.get_logger().info(f"scene {scene.name!r}, {scene.servo.rate:g} ticks a second")

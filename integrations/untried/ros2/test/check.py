@@ -95,6 +95,20 @@ def check_pauses(reference: Path, poses: list[PoseStamped], before: np.ndarray) 
             assert len(forces) == 1 and not forces.any() and "starts anew" in node.logger.lines[-1], node.logger.lines
 
 
+def check_qos(reference: Path) -> None:
+    """A sender that offers only best effort reaches the node that asks for no more."""
+    for reliability in ("reliable", "best_effort"):
+        chosen = {"qos_overrides./needle_pose.subscription.reliability": reliability}
+        Node.overrides = {"scene": str(reference / "scene.toml"), **chosen}
+        node = NeedleNode()
+        assert node.hears("needle_pose", "reliable")
+        assert node.hears("needle_pose", "best_effort") == (reliability == "best_effort")
+        names = {f"qos_overrides.{end}.{policy}" for end in ("/needle_pose.subscription", "/needle_wrench.publisher")
+                 for policy in ("reliability", "durability", "history", "depth")}  # fmt: skip
+        assert names <= set(node.parameters)
+    print("ros2: best effort reaches the node that asks for it")
+
+
 def check_fields() -> None:
     """The stand-ins for messages have the fields of ROS 2's own definitions, as rosbags has them."""
     definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs
@@ -151,6 +165,7 @@ if __name__ == "__main__":
     rows = np.fromfile(reference / "motion.f64", "<f8").reshape(-1, 9)
     rate = pn.load_scene(reference / "scene.toml").servo.rate
     check_fields()
+    check_qos(reference)
     check_node(reference, rows, rate)
     check_bag(folder, rows[:1333], rate, one=False)
     check_bag(folder, rows[:1333], rate, one=True)

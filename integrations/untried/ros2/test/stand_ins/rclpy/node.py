@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from types import SimpleNamespace
 
+from rclpy.qos_overriding_options import QoSOverridingOptions
+
 
 class Publisher:
     def __init__(self) -> None:
@@ -42,11 +44,29 @@ class Node:
     def get_parameter(self, name: str) -> SimpleNamespace:
         return SimpleNamespace(value=self.parameters[name])
 
-    def create_publisher(self, kind: type, topic: str, depth: int) -> Publisher:
+    def create_publisher(
+        self, kind: type, topic: str, depth: int, *, qos_overriding_options: QoSOverridingOptions
+    ) -> Publisher:
+        self._choose(f"/{topic}.publisher", depth, qos_overriding_options)
         return self.publishers_by_topic.setdefault(topic, Publisher())
 
-    def create_subscription(self, kind: type, topic: str, callback: Callable[[object], None], depth: int) -> None:
+    def create_subscription(
+        self, kind: type, topic: str, callback: Callable[[object], None], depth: int, *,
+        qos_overriding_options: QoSOverridingOptions,
+    ) -> None:  # fmt: skip
+        self._choose(f"/{topic}.subscription", depth, qos_overriding_options)
         self.callbacks[topic] = callback
+
+    def _choose(self, end: str, depth: int, options: QoSOverridingOptions) -> None:
+        """As rclpy: a parameter for each policy, with the name in small letters."""
+        usual = {"DEPTH": depth, "DURABILITY": "volatile", "HISTORY": "keep_last", "RELIABILITY": "reliable"}
+        for policy in options.policy_kinds:
+            self.declare_parameter(f"qos_overrides.{end}.{policy.name.lower()}", usual[policy.name])
+
+    def hears(self, topic: str, offered: str) -> bool:
+        """Whether messages of a sender that offers this reliability reach the subscription."""
+        asked = self.parameters[f"qos_overrides./{topic}.subscription.reliability"]
+        return offered == "reliable" or asked == "best_effort"
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         self.timers.append(callback)
