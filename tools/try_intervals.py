@@ -38,9 +38,9 @@ import punctura as pn
 from numpy.typing import NDArray
 from punctura.identify import Parameters, Rig, identify
 from punctura.identify.fit import Fit, Misfit, fit
+from punctura.identify.noise import Mixture
 from punctura.identify.parameters import default_coupling, default_membrane
 from punctura.identify.plan import information
-from punctura.identify.slow_noise import Mixture
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95
 from punctura.scene import ServoSettings

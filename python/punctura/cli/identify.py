@@ -76,9 +76,8 @@ def command(
 ) -> None:
     """Identifies membranes from a measured trace. Gives values, 95 % intervals, and what the trace cannot tell."""
     from punctura.identify import identify
-    from punctura.identify.folder import Task
+    from punctura.identify.folder import Task, write_specimens
     from punctura.identify.report import report_html
-    from punctura.identify.specimens import write_specimens
     from punctura.scene.build import scene_text
     from punctura.trace.bags import is_bag
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.identify.slow_noise import Mixture
+from punctura.identify.noise import Mixture
 from punctura.trace import Segments, Stroke, Trace
 from punctura.trace.air import spread
 

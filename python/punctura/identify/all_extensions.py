@@ -5,7 +5,7 @@ from __future__ import annotations
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Start
 from punctura.identify.model import extensions
-from punctura.identify.pops_moved import noise_limit
+from punctura.identify.moves import noise_limit
 from punctura.identify.search import Search, seen
 
 ALL = "all extensions"

@@ -9,11 +9,10 @@ from punctura import Needle
 from punctura.identify.all_extensions import from_all, reduced
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Start
-from punctura.identify.hops import GAIN, with_hops
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
+from punctura.identify.moves import GAIN, noise_limit, with_hops
 from punctura.identify.parameters import Parameters
-from punctura.identify.pops_moved import noise_limit
 from punctura.identify.rig import UNKNOWN, Rig
 from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall

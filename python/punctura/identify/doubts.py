@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from punctura.identify.causes import Cause, causes
+from punctura.identify.causes import UNEVEN, Cause, both_ways, causes, way_out
 from punctura.identify.depth_noise import steady_noise
 from punctura.identify.explained import SURE, Explained, explained
 from punctura.identify.fit import Fit
 from punctura.identify.records import ExplainedRecord
-from punctura.identify.ways import UNEVEN, both_ways, way_out
 from punctura.trace import Segments, Trace
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker

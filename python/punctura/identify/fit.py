@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.identify.noise import NoiseOfFit
 from punctura.identify.parameters import LATE, Free, Parameters
 from punctura.identify.sensor import SensedModel
-from punctura.identify.slow_noise import NoiseOfFit
 from punctura.trace import Trace, TraceError
 from punctura.trace.air import spread
 

@@ -6,13 +6,15 @@ import hashlib
 import json
 import multiprocessing
 import os
+import re
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from io import BytesIO
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Literal
@@ -31,6 +33,8 @@ from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, Tr
 from punctura.identify.rig import UNKNOWN, Rig, check
 from punctura.trace.read import read_as
 from punctura.trace.reading import Reading
+from punctura.trace.sheets import SheetError
+from punctura.trace.tables import read_table
 
 LONGEST = 200  # bytes of a name; a temporary file adds to it
 DIED = "its process ended early; is there enough memory?"  # tried again by the next run
@@ -212,3 +216,28 @@ def _summary(out: Path, results: list[TraceRecord], kept: int) -> FolderRecord:
 def _shown(source: str) -> str:
     """The name of a file as text."""
     return as_text(Path(source).name)
+
+
+def write_specimens(path: Path, reading: Reading, folder: Path) -> None:
+    """Writes each table of a file that can be a trace to `folder` as Parquet. Raises TraceError, OSError.
+
+    A file with the same table is left as it is, so that its result is kept; one of a former specimen is removed.
+    """
+    try:
+        tables = {path.stem: read_table(path, reading)}
+    except SheetError as several:
+        if reading.sheet is not None:
+            raise
+        tables = {name: read_table(path, replace(reading, sheet=name)) for name in several.sheets}
+    folder.mkdir(parents=True, exist_ok=True)
+    written = set()
+    for number, (name, table) in enumerate(tables.items(), 1):
+        plain = re.sub(r"[^\w .-]", "_", name)[:80]
+        place = folder / f"{number:02}-{plain}.parquet"
+        held = BytesIO()
+        pa.parquet.write_table(pa.table(dict(table)), held)
+        if not place.exists() or place.read_bytes() != held.getvalue():
+            write_whole(place, held.getvalue())
+        written.add(place)
+    for former in set(folder.glob("[0-9]*-*.parquet")) - written:
+        former.unlink()

@@ -12,7 +12,6 @@ from punctura import Needle, Scene
 from punctura._core import longest_name
 from punctura.files.names import as_text
 from punctura.identify.choose import choose
-from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate
 from punctura.identify.depth_noise import noise_not_used, with_quiet_depth
 from punctura.identify.doubts import Doubts, doubts
@@ -21,17 +20,17 @@ from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.late_sensor import late_words
 from punctura.identify.model import Model
+from punctura.identify.moves import with_contacts_moved, with_pops_moved
 from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import LATE, Parameters
-from punctura.identify.pops_moved import with_pops_moved
+from punctura.identify.profile import BetterPoint
 from punctura.identify.records import IdentificationRecord
 from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned, weighted
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
-from punctura.identify.watch import BetterPoint
 from punctura.one_thread import one_thread
 from punctura.trace import Segments, Trace, TraceError, segment
 

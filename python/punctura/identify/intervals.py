@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 from punctura.identify.fit import Fit
 from punctura.identify.fit import fit as fitted
 from punctura.identify.parameters import NUISANCE, UNITS, Parameters, kind_of
-from punctura.identify.profile import bound
+from punctura.identify.profile import Watch, bound
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import CHI2_95, Uncertainty
-from punctura.identify.watch import Watch
 from punctura.trace import TraceError
 
 Array = NDArray[np.float64]

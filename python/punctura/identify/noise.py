@@ -1,6 +1,13 @@
-"""The noise of a fit: how much its residuals are correlated, and how many samples count as independent."""
+"""The noise of a fit: how much its residuals are correlated, and how likely each mixture of white and slow noise is.
+
+The residuals alone show too little of slow noise, because the fit takes it up. So the likelihood is that of what a fit
+cannot take up (restricted maximum likelihood, Patterson and Thompson 1971), and all mixtures count by their likelihood.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,3 +39,141 @@ def effective_samples(residuals: Array, parameters: int = 0) -> float:
     rho = autocorrelation(residuals, parameters)
     inflation = max(1.0, float(1 + 2 * rho[1:].sum()))
     return max(2.0, len(residuals) / inflation)
+
+
+SHARES = (0.02, 0.06, 0.2, 0.5, 0.8, 0.94, 1.0)  # of the variance, that is slow
+LONGEST = 2.0  # lengths of the trace, of the longest correlation
+SLOW = 1 / 40  # of the trace, is the least correlation length that counts as slow
+RATIO = 1.8  # from one correlation length to the next
+
+
+@dataclass(frozen=True)
+class Mixture:
+    """Noise of variance 1: white, and a share of it with the correlation exp(-lag / length). length: samples."""
+
+    share: float
+    length: float
+
+    def solved(self, columns: Array) -> tuple[Array, float]:
+        """V^-1 columns and log det V, with the correlation matrix V (n, n) of the noise.
+
+        V = w 1 + a Q^-1 with the tridiagonal inverse Q of an AR(1) noise, so V^-1 = (a 1 + w Q)^-1 Q: O(n).
+        """
+        from scipy.linalg.lapack import dptsv
+
+        n = len(columns)
+        if self.share == 0:
+            return columns, 0.0
+        rho = float(np.exp(-1 / self.length))
+        left = -np.expm1(-2 / self.length)  # 1 - rho^2
+        main = np.full(n, (1 + rho**2) / left)
+        main[[0, -1]] = 1 / left
+        beside = np.full(n - 1, -rho / left)
+        right = main[:, None] * columns
+        right[:-1] += beside[:, None] * columns[1:]
+        right[1:] += beside[:, None] * columns[:-1]
+        white = 1 - self.share
+        pivots, _, solution, _ = dptsv(self.share + white * main, white * beside, right)
+        return np.asarray(solution), float(np.log(pivots).sum() + (n - 1) * np.log(left))
+
+    def smeared(self, columns: Array) -> Array:
+        """V columns."""
+        from scipy.signal import lfilter
+
+        rho = float(np.exp(-1 / self.length))
+        forth = lfilter([1.0], [1.0, -rho], columns, axis=0)
+        back = lfilter([1.0], [1.0, -rho], columns[::-1], axis=0)[::-1]
+        return np.asarray(self.share * (forth + back - columns) + (1 - self.share) * columns)
+
+
+def mixtures(samples: int) -> list[Mixture]:
+    """White noise, and every mixture that a trace of this length may have."""
+    count = int(np.ceil(np.log(LONGEST * samples / 0.6) / np.log(RATIO)))
+    lengths = LONGEST * samples / RATIO ** np.arange(count + 1)
+    return [Mixture(0.0, 1.0), *(Mixture(share, length) for share in SHARES for length in lengths)]
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What one mixture makes of a fit. log_det: of V; log_gram: of J^T V^-1 J, scaled; left: of the squares, N^2."""
+
+    mixture: Mixture
+    log_det: float
+    log_gram: float
+    left: float
+
+
+class NoiseOfFit:
+    """The noise that a fit's residuals (n,), N, show, and its Jacobian (n, p), under every mixture."""
+
+    def __init__(self, residuals: Array, jacobian: Array) -> None:
+        self._n, self._p = jacobian.shape
+        self._jacobian = jacobian
+        self._explained = tuple(_explained(residuals, jacobian, mixtures(self._n)))
+
+    def spread(self, inverse: Array) -> Array:
+        """The covariance (p, p) of a fit by least squares, averaged over all mixtures by their likelihood.
+
+        inverse: (J^T J)^-1. White noise counts as much as all other mixtures together before the trace is looked at.
+        """
+        total = np.zeros((self._p, self._p))
+        weights = self._weights()
+        for one, weight in zip(self._explained, weights, strict=True):
+            if weight > 1e-4 * weights.max():
+                smeared = one.mixture.smeared(self._jacobian)
+                total += weight * self._variance(one) * (inverse @ (self._jacobian.T @ smeared) @ inverse)
+        return total
+
+    def most_likely(self) -> tuple[Mixture, float]:
+        """The most likely mixture, and its variance, N^2."""
+        best = self._explained[int(np.argmax(self._weights()))]
+        return best.mixture, self._variance(best)
+
+    def slow_and_white(self) -> tuple[float, float]:
+        """Standard deviations of the slow and of the other noise, N, in the most likely mixture.
+
+        Slow is a correlation length of at least SLOW of the trace.
+        """
+        best, variance = self.most_likely()
+        share = best.share if best.length >= SLOW * self._n else 0.0
+        return float(np.sqrt(share * variance)), float(np.sqrt((1 - share) * variance))
+
+    def misfit_beyond_slow_noise(self, allowed: Callable[[Mixture, float], bool]) -> float:
+        """-2 ln L of a fit, where slow noise of any allowed mixture may explain the residuals, too; smaller is better.
+
+        allowed: of a mixture and its variance, N^2; white noise always is. The mixture is the most likely one, and the
+        parameters follow it by the linear model. Fits of the same samples can be compared, also if their parameters
+        differ.
+        """
+        n = self._n
+        worth = [(one.log_det + n * np.log(one.left / n), i, one) for i, one in enumerate(self._explained)]
+        return float(
+            next(w for w, _, one in sorted(worth) if one.mixture.share == 0 or allowed(one.mixture, one.left / n))
+        )
+
+    def _variance(self, one: Explained) -> float:
+        """Of a sample, N^2."""
+        return float(one.left / max(self._n - self._p, 1))
+
+    def _weights(self) -> Array:
+        """The likelihood of every mixture, over their sum."""
+        n, p = self._n, self._p
+        worth = np.array([-0.5 * (one.log_det + one.log_gram + (n - p) * np.log(one.left)) for one in self._explained])
+        worth[1:] -= np.log(len(worth) - 1)
+        weights = np.exp(worth - worth.max())
+        return np.asarray(weights / weights.sum())
+
+
+def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[Explained]:
+    """For each mixture: log det V, that of J^T V^-1 J (scaled), and what V^-1 leaves of the residuals."""
+    p = jacobian.shape[1]
+    scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
+    columns = np.column_stack((jacobian / scale, residuals))
+    for mixture in every:
+        solved, log_det = mixture.solved(columns)
+        gram = columns.T @ solved
+        values, vectors = np.linalg.eigh(gram[:p, :p])
+        values = np.maximum(values, 1e-12 * values[-1])
+        taken = vectors.T @ gram[:p, p]
+        left = max(float(gram[p, p] - taken @ (taken / values)), 1e-300)
+        yield Explained(mixture, log_det, float(np.log(values).sum()), left)

@@ -9,15 +9,13 @@ from itertools import islice
 import numpy as np
 
 from punctura import Needle
-from punctura.identify.contacts_moved import with_contacts_moved
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, fit, in_order
-from punctura.identify.hops import with_hops
 from punctura.identify.model import Extension, Model
+from punctura.identify.moves import noise_limit, with_contacts_moved, with_hops, with_pops_moved
 from punctura.identify.parameters import LATE, Parameters
-from punctura.identify.pops_moved import noise_limit, with_pops_moved
-from punctura.identify.rises import rise_starts
 from punctura.identify.start import starts
+from punctura.identify.walls import rise_starts
 from punctura.trace import Segments, Trace, TraceError
 
 WEIGHTED = 2  # fits, each with the weights that the one before shows

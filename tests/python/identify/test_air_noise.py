@@ -7,8 +7,8 @@ from punctura.identify.criteria import Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import estimates
 from punctura.identify.model import Model, extensions
+from punctura.identify.noise import Mixture
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
-from punctura.identify.slow_noise import Mixture
 from punctura.identify.verdict import verdicts
 from punctura.trace import Trace, segment
 from traces import NEEDLE, force_of, motion

@@ -10,12 +10,12 @@ from punctura import Needle
 from punctura._core import TraceModel
 from punctura.identify import identify
 from punctura.identify.fit import Fit, Misfit, fit
-from punctura.identify.hops import with_hops
 from punctura.identify.intervals import estimates
 from punctura.identify.model import Model, extensions
+from punctura.identify.moves import with_hops
 from punctura.identify.parameters import COUPLING, MEMBRANE, Parameters, default_coupling, default_membrane
+from punctura.identify.profile import BetterPoint
 from punctura.identify.search import Search
-from punctura.identify.watch import BetterPoint
 from punctura.trace import Trace
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))

@@ -18,11 +18,11 @@ from punctura.identify import scene as identified_scene
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import OWN, Model, extensions
+from punctura.identify.moves import with_pops_moved
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
-from punctura.identify.pops_moved import with_pops_moved
-from punctura.identify.rises import rise_starts
 from punctura.identify.scene import scene_of
+from punctura.identify.walls import rise_starts
 from punctura.one_thread import one_thread
 from punctura.trace import Finding, Trace, TraceError, read_trace, segment
 from punctura.trace.blocks import held_out

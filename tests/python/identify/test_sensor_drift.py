@@ -8,9 +8,9 @@ import pytest
 from punctura.identify.criteria import Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import Model, extensions
+from punctura.identify.noise import NoiseOfFit
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.search import thinned
-from punctura.identify.slow_noise import NoiseOfFit
 from punctura.identify.verdict import verdicts
 from punctura.trace import Trace, segment
 from traces import NEEDLE, force_of, motion

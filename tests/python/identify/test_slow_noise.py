@@ -6,9 +6,9 @@ import pytest
 from punctura.identify import identify
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import estimates
+from punctura.identify.noise import Mixture, NoiseOfFit
 from punctura.identify.parameters import MEMBRANE as MEMBRANE_NAMES
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
-from punctura.identify.slow_noise import Mixture, NoiseOfFit
 from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import Trace
 from traces import NEEDLE, force_of, motion, trace

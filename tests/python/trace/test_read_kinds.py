@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from openpyxl import Workbook
-from punctura.identify.specimens import write_specimens
+from punctura.identify.folder import write_specimens
 from punctura.trace import TraceError, read_trace
 from punctura.trace.reading import Reading
 from traces import trace
