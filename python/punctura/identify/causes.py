@@ -1,6 +1,7 @@
 """What could explain what a model leaves: each cause is fitted to the residuals beside the model's own parameters.
 
-Also whether the way out resists as much as the way in, at the same depth."""
+Also whether the way out resists as much as the way in, at the same depth.
+"""
 
 from __future__ import annotations
 

@@ -11,8 +11,7 @@ from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace, TraceError
-from punctura.trace.blocks import held_out
-from punctura.trace.information import Information, information
+from punctura.trace.information import Information, held_out, information
 from punctura.trace.turns import noise_of
 
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)

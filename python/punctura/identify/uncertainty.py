@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
-from punctura.trace.steps import equal_runs, rounding
+from punctura.trace.samples import equal_runs, rounding
 
 Array = NDArray[np.float64]
 

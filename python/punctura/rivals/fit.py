@@ -15,7 +15,7 @@ from punctura.rivals.path import Path, path_of
 from punctura.rivals.problem import Problem, Wall
 from punctura.rivals.walls import walls_of
 from punctura.trace import Segments, Trace, segment
-from punctura.trace.blocks import held_out
+from punctura.trace.information import held_out
 
 Array = NDArray[np.float64]
 STARTS = 6

@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 
 from punctura.extras import optional
-from punctura.trace.size import check_size
-from punctura.trace.table import Table
+from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import TraceError
-from punctura.trace.unreadable import unreadable
 
 _LONGEST_LIST = 16  # numbers of a message, such as those of joints
 

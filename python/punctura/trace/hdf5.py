@@ -10,11 +10,9 @@ import numpy as np
 from punctura.extras import optional
 from punctura.trace.heading import with_unit
 from punctura.trace.reading import Reading
-from punctura.trace.size import MOST_COLUMNS, check_size
 from punctura.trace.structured import table_of
-from punctura.trace.table import Table
+from punctura.trace.table import MOST_COLUMNS, Table, check_size, unreadable
 from punctura.trace.trace import TraceError
-from punctura.trace.unreadable import unreadable
 
 
 def read_hdf5(path: Path, reading: Reading) -> Table:

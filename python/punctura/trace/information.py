@@ -1,4 +1,4 @@
-"""How much a fit is worth: AIC and BIC for residuals that depend on their neighbours.
+"""How much a fit is worth: AIC and BIC for dependent residuals, and the samples that it does not see.
 
 punctura.identify.noise.effective_samples() counts the independent samples.
 """
@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from punctura.trace.segment import Segments
 
 Array = NDArray[np.float64]
 
@@ -44,3 +46,21 @@ def _checked(residuals: ArrayLike) -> Array:
     if left.ndim != 1 or len(left) < 3 or not np.isfinite(left).all():
         raise ValueError("residuals must be at least three finite numbers")
     return left
+
+
+BLOCKS, FOLDS = 20, 4
+
+
+def held_out(samples: int, segments: Segments) -> list[NDArray[np.bool_]]:
+    """Masks (n,) of the samples that each fold leaves out: every fourth of 20 blocks, without the pops.
+
+    A pop and its neighbours are never left out: its place is a parameter of its own, which nothing else in the trace
+    tells. The masks depend on the trace alone, so they are the same for all models that are compared.
+    """
+    block = np.arange(samples) * BLOCKS // samples
+    near = max(3, samples // 100)
+    free = np.ones(samples, bool)
+    for pop in segments.pops:
+        free[max(0, pop.start - near) : pop.end + near + 1] = False
+    masks = [(block % FOLDS == fold) & free for fold in range(FOLDS)]
+    return [mask for mask in masks if mask.any()]

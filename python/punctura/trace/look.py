@@ -12,7 +12,7 @@ from punctura import Needle
 from punctura.trace.columns import ROLES, candidates
 from punctura.trace.read import recording_at
 from punctura.trace.reading import Reading
-from punctura.trace.size import check_file
+from punctura.trace.table import check_file
 from punctura.trace.tables import read_table
 from punctura.trace.units import split_name
 

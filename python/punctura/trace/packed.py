@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 from typing import IO
 
-from punctura.trace.size import MOST_NUMBERS
+from punctura.trace.table import MOST_NUMBERS
 from punctura.trace.trace import TraceError
 
 MOST_BYTES = 8 * MOST_NUMBERS  # expanded

@@ -19,8 +19,7 @@ from punctura.trace.findings import examine
 from punctura.trace.motion import Speeds, about_speed, depth_from, with_depth_of
 from punctura.trace.reading import Order, Reading
 from punctura.trace.samples import no_reading
-from punctura.trace.size import check_file, check_size
-from punctura.trace.table import Table
+from punctura.trace.table import Table, check_file, check_size
 from punctura.trace.tables import read_table
 from punctura.trace.text import DecimalError
 from punctura.trace.trace import Finding, Trace, TraceError, Unstated

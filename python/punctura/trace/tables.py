@@ -14,13 +14,11 @@ from punctura.trace.clock import join_stamp
 from punctura.trace.hdf5 import read_hdf5
 from punctura.trace.packed import check_mat, holds_workbook
 from punctura.trace.reading import Reading
-from punctura.trace.size import MOST_COLUMNS, check_bytes, check_names, check_size
 from punctura.trace.structured import read_json, table_of
-from punctura.trace.table import Table
+from punctura.trace.table import MOST_COLUMNS, Table, check_bytes, check_names, check_size, unreadable
 from punctura.trace.tdms import read_tdms
 from punctura.trace.text import read_text
 from punctura.trace.trace import TraceError
-from punctura.trace.unreadable import unreadable
 from punctura.trace.workbook import read_workbook
 
 _KINDS = {b"\xd0\xcf\x11\xe0": ".xls", b"\x89HDF": ".h5", b"PK\3\4": ".xlsx"}  # the first bytes

@@ -15,10 +15,8 @@ from punctura.extras import optional
 from punctura.trace.heading import unique, with_unit
 from punctura.trace.reading import Reading
 from punctura.trace.sheets import is_trace, only_trace, wanted_sheet
-from punctura.trace.size import check_size
-from punctura.trace.table import Table
+from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import Finding, TraceError
-from punctura.trace.unreadable import unreadable
 
 
 def read_tdms(path: Path, reading: Reading) -> Table:

@@ -21,10 +21,8 @@ from punctura.trace.cells import are_plain, column, unit_beside
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import column_names, first_row, with_unit
-from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, read_lines, survey
-from punctura.trace.lvm import is_lvm, lvm_lines
-from punctura.trace.size import check_bytes, check_size
-from punctura.trace.table import Table
+from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, is_lvm, lvm_lines, read_lines, survey
+from punctura.trace.table import Table, check_bytes, check_size
 from punctura.trace.trace import Finding, TraceError, Unstated
 
 if TYPE_CHECKING:

@@ -15,10 +15,8 @@ from punctura.trace.lines import LOOKED_AT
 from punctura.trace.packed import check_workbook
 from punctura.trace.reading import Reading
 from punctura.trace.sheets import only_trace, wanted_sheet
-from punctura.trace.size import check_size
-from punctura.trace.table import Table
+from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import TraceError
-from punctura.trace.unreadable import unreadable
 
 
 def read_workbook(path: Path, reading: Reading, old: bool) -> Table:

@@ -25,7 +25,7 @@ from punctura.identify.scene import scene_of
 from punctura.identify.walls import rise_starts
 from punctura.one_thread import one_thread
 from punctura.trace import Finding, Trace, TraceError, read_trace, segment
-from punctura.trace.blocks import held_out
+from punctura.trace.information import held_out
 from traces import MEMBRANE, NEEDLE, force_of, motion, trace
 from typer.testing import CliRunner
 from waiting import PATIENCE_S

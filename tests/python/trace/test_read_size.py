@@ -96,7 +96,7 @@ def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
 
 
 def test_a_text_file_with_too_many_numbers_is_refused_before_they_are_read(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.trace.size.MOST_NUMBERS", 5_000)
+    monkeypatch.setattr("punctura.trace.table.MOST_NUMBERS", 5_000)
     monkeypatch.setattr("punctura.trace.text._parsed", lambda *_: pytest.fail("read"))
     (tmp_path / "a.csv").write_text("time_s;depth_mm;force_N\n" + 2_000 * "0;1;2\n")
     with pytest.raises(TraceError, match=r"a.csv: holds 6,003 numbers or more; the limit is 5,000. Export only depth"):
@@ -160,7 +160,7 @@ def test_a_part_of_a_workbook_that_expands_is_refused(tmp_path, part, size):
 
 
 def test_one_wide_row_does_not_make_all_rows_wide(tmp_path, monkeypatch):
-    monkeypatch.setattr("punctura.trace.size.MOST_NUMBERS", 100_000)
+    monkeypatch.setattr("punctura.trace.table.MOST_NUMBERS", 100_000)
     book = Workbook(write_only=True)
     sheet = book.create_sheet()
     for _ in range(110):

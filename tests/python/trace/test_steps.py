@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from punctura.trace.steps import rounding
+from punctura.trace.samples import rounding
 
 SMOOTH = np.sin(np.linspace(0, 3, 400)) + 1e-3 * np.random.default_rng(1).normal(size=400)
 

@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 from openpyxl import Workbook
 from punctura.trace import TraceError, read_trace
-from punctura.trace.unreadable import unreadable
+from punctura.trace.table import unreadable
 
 TIME = np.arange(200) * 0.01
 COLUMNS = {"time_s": TIME, "depth_mm": 5 * TIME, "force_N": 0.1 * TIME}
