@@ -116,10 +116,10 @@ def command(
     found = identify(read, known, count, notice, known_rig)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
     if not as_json and not found.doubts.explained.ok:
-        from punctura.rivals import better
+        from punctura.rivals.comparison import better_in_words
 
         notice("the rivals")
-        typer.echo(better.in_words(found))
+        typer.echo(better_in_words(found))
     if scene is not None:
         write_whole(scene, scene_text(found.scene).encode())
     if report is not None:

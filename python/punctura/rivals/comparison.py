@@ -1,4 +1,4 @@
-"""Models beside each other on one trace."""
+"""Models beside each other on one trace, and the rivals that explain it better than the identified model does."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from punctura._core import Needle, Scene
 from punctura.errors import ConfigurationError, Problem
 from punctura.identify import Identification
+from punctura.identify.criteria import EVIDENCE
 from punctura.identify.depth_noise import with_quiet_depth
 from punctura.identify.noise import effective_samples
 from punctura.one_thread import one_thread
@@ -157,3 +158,28 @@ def _comparison(
 
 def _chatter(fit: AnyFit, places: list[float]) -> Chatter:
     return rival_chatter(fit.layers, places) if isinstance(fit, RivalFit) else k06_chatter(fit.scene, places)
+
+
+def better_rivals(found: Identification) -> tuple[TraceComparison, tuple[Row, ...]]:
+    """All rivals on the trace of an identification, and those with a smaller BIC and a smaller error."""
+    table = compare_trace(found.trace, needle=found.parameters.needle, with_chatter=False, identified=found)
+    own = [row for row in table.rows if row.name in (PRINTED, CHOSEN)]
+    bic = min(row.bic for row in own)
+    error = min(row.rmse for row in own)
+    better = [row for row in table.rows if row not in own and row.bic < bic - EVIDENCE and row.rmse < error]
+    return table, tuple(sorted(better, key=lambda row: row.bic))
+
+
+def better_in_words(found: Identification) -> str:
+    """One sentence on the rivals, for a trace that the model does not explain."""
+    table, better = better_rivals(found)
+    rmse = min(row.rmse for row in table.rows if row.name in (PRINTED, CHOSEN))
+    own = f"K06 {rmse:.2g} N (punctura rivals)"
+    if better:
+        return f"Another model does better: {'; '.join(map(_leaves, better[:2]))}, and {own}."
+    rivals = [row for row in table.rows if row.name not in (PRINTED, CHOSEN)]
+    return f"No rival does better: {_leaves(min(rivals, key=lambda row: row.bic))}, and {own}."
+
+
+def _leaves(row: Row) -> str:
+    return f"{row.title} leaves {row.rmse:.2g} N"

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from punctura.extras import optional
 from punctura.rivals.kinds import RivalKind
-from punctura.rivals.layers import Layer
-from punctura.rivals.path import Path, path_of
-from punctura.rivals.problem import Problem, Wall
-from punctura.rivals.walls import walls_of
+from punctura.rivals.layers import Layer, Path, path_of
+from punctura.rivals.problem import Problem
+from punctura.rivals.starts import Wall, walls_of
 from punctura.trace import Segments, Trace, segment
 from punctura.trace.information import held_out
 

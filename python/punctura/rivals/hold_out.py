@@ -17,8 +17,7 @@ from punctura.identify.rig import UNKNOWN, Rig
 from punctura.one_thread import one_thread
 from punctura.rivals.fit import RivalFit, fit_rival
 from punctura.rivals.kinds import kinds
-from punctura.rivals.layers import resistance
-from punctura.rivals.path import path_of
+from punctura.rivals.layers import path_of, resistance
 from punctura.trace import Segments, Trace, TraceError, segment
 
 Array = NDArray[np.float64]

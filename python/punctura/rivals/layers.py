@@ -1,4 +1,4 @@
-"""One rival in each layer of the tissue: the force on the needle is the sum."""
+"""One rival in each layer of the tissue: the force on the needle is the sum, along the motion that was measured."""
 
 from __future__ import annotations
 
@@ -16,9 +16,57 @@ from punctura._core import Rival
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_text
 from punctura.files.whole_file import write_whole
-from punctura.rivals.path import Path
+from punctura.rivals.kinds import Shows
+from punctura.trace import Segments, Trace
 
 Array = NDArray[np.float64]
+ASSUMED_SPEED = 5e-3  # m/s, for a trace without time
+
+
+@dataclass(frozen=True)
+class Path:
+    """Depth, velocity and time steps of a trace (n,), SI. A trace without time moves at ASSUMED_SPEED."""
+
+    depth: Array
+    velocity: Array
+    period: Array
+    shows: frozenset[Shows]  # what the numbers of a rival can be read from
+
+    def slow(self) -> float:
+        """A velocity that separates moving from resting, m/s: a tenth of the usual speed."""
+        moving = np.abs(self.velocity[self.velocity != 0])
+        return float(np.clip(0.1 * np.median(moving), 1e-6, 0.1)) if len(moving) else 1e-4
+
+
+def path_of(trace: Trace, segments: Segments) -> Path:
+    """The path of a trace. In a hold the velocity is 0, so that noise of the depth does not count as motion."""
+    if trace.time is None:
+        steps = np.abs(np.diff(trace.depth, prepend=trace.depth[0]))
+        period = np.maximum(steps / ASSUMED_SPEED, 1e-9)
+    else:
+        period = np.diff(trace.time, prepend=trace.time[0] - float(np.median(np.diff(trace.time))))
+    velocity = np.gradient(trace.depth, np.cumsum(period))
+    for stroke in segments.strokes:
+        rows = slice(stroke.start, stroke.end)
+        if stroke.kind == "hold":
+            velocity[rows] = 0.0
+        else:  # noise of the depth must not turn the needle round
+            sign = 1.0 if stroke.kind == "in" else -1.0
+            velocity[rows] = sign * np.maximum(sign * velocity[rows], 1e-9)
+    shows: set[Shows] = {"insertion"}
+    if any(stroke.kind == "out" for stroke in segments.strokes):
+        shows.add("withdrawal")
+    if segments.holds or (trace.time is not None and _speeds_differ(velocity, segments)):
+        shows.add("speeds")
+    return Path(trace.depth, velocity, period, frozenset(shows))
+
+
+def _speeds_differ(velocity: Array, segments: Segments) -> bool:
+    """Whether two insertions have speeds that differ by more than a half."""
+    speeds = [float(np.median(velocity[s.start : s.end])) for s in segments.strokes if s.kind == "in"]
+    return len(speeds) > 1 and max(speeds) > 1.5 * min(speeds)
+
+
 FORMAT = "punctura rival 1"
 
 

@@ -3,29 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura._core import Rival
 from punctura.rivals.kinds import RivalKind, RivalNumber
-from punctura.rivals.layers import Layer, resistance
-from punctura.rivals.path import Path
-from punctura.rivals.starts import STARTS, Seen
+from punctura.rivals.layers import Layer, Path, resistance
+from punctura.rivals.starts import STARTS, Wall
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Wall:
-    """A layer as a trace shows it, before any fit. SI."""
-
-    seen: Seen
-    surface: float
-    lowest: float  # bounds of the surface
-    highest: float
-    punctured: int | None  # first sample behind the puncture; None if the trace shows no puncture
 
 
 class Problem:

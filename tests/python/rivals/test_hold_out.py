@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from punctura.identify import Rig, identify
 from punctura.identify.depth_noise import with_quiet_depth
-from punctura.rivals import Layer, Rival, better, compare_trace, fit_rival, hold_out
+from punctura.rivals import Layer, Rival, compare_trace, fit_rival, hold_out
+from punctura.rivals.comparison import better_in_words
 from punctura.rivals.hold_out import REPEAT, another_trace, fitted, means, second_insertion
 from punctura.rivals.kinds import kinds
-from punctura.rivals.layers import resistance
-from punctura.rivals.path import path_of
+from punctura.rivals.layers import path_of, resistance
 from punctura.trace import Trace, TraceError, segment
 from traces import NEEDLE, trace
 
@@ -138,11 +138,11 @@ def test_a_rival_that_explains_the_trace_better_is_named_and_only_then(monkeypat
     """The second trace is made by a rival: an exponential rise, and a friction that grows with the depth."""
     monkeypatch.setattr("punctura.rivals.comparison.kinds", hold_out.kinds)
     plain = made()
-    told = better.in_words(identify(plain, NEEDLE, 1))
+    told = better_in_words(identify(plain, NEEDLE, 1))
     assert told.startswith("No rival does better: ") and told.endswith("(punctura rivals).")
     numbers = {"scale": 0.05, "growth": 900.0, "friction": 0.1, "friction_slope": 40.0, "puncture": 3e-3}
     path = path_of(plain, segment(plain))
     noise = NOISE * np.random.default_rng(4).normal(size=len(plain))
     force = Layer(5e-3, Rival("exponential", numbers)).resistance(path) + noise
-    told = better.in_words(identify(Trace(plain.depth, force, plain.time), NEEDLE, 1))
+    told = better_in_words(identify(Trace(plain.depth, force, plain.time), NEEDLE, 1))
     assert told.startswith("Another model does better: exponential")
