@@ -19,11 +19,11 @@ from typing import Annotated
 import typer
 
 from punctura import __version__
-from punctura.cli._leave import leave
 from punctura.cli._status import CALLED_WRONGLY, DEFECT, FAILED
 from punctura.cli._streams import (
     StdoutError,
     give_up_stdout,
+    leave,
     name_stdout,
     open_closed_streams,
     wait_for_stderr_again,

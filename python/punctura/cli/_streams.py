@@ -5,11 +5,14 @@ from __future__ import annotations
 import errno
 import io
 import os
+import signal
 import sys
 from contextlib import suppress
-from typing import Any, cast
+from typing import Any, NoReturn, cast
 
+from punctura.cli._status import SIGNAL
 from punctura.process.dropping_stream import DroppingStream, terminal
+from punctura.process.signals import Ended, ignore_more_signals
 
 
 def open_closed_streams() -> None:
@@ -80,3 +83,12 @@ def give_up_stdout() -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
         os.close(nowhere)
+
+
+def leave(end: Ended, more: str = "") -> NoReturn:
+    """Prints the signal's name, and exits with its status."""
+    ignore_more_signals()
+    give_up_stdout()
+    words = "interrupted" if end.number == signal.SIGINT else f"ended by {end.name}"
+    print(f"punctura: {words}{more}", file=sys.stderr)
+    sys.exit(SIGNAL + end.number)

@@ -16,7 +16,7 @@ from punctura.exercise.motion import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
 from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, TargetSpace
 from punctura.exercise.yields import YieldMeasures
-from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 
 OVERSHOOT_S = 0.3  # window after a pop, unless a goal sets it: a hand reacts later than this
 

@@ -20,15 +20,14 @@ from punctura._core import (
     make_realtime,
     needed_damping,
     open_device,
+    stroke_ends,
 )
 from punctura.device_words import room_note
-from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for
+from punctura.live.choose import ANY_PROCESSOR, fit_conditioning, fit_direction, gate_for, open_for, strokes_through
 from punctura.live.force_words import MODEL_FORCE, felt_force
 from punctura.live.limits import RunLimits, load_limits
-from punctura.live.motion import stroke_ends, strokes_through
-from punctura.live.placement import load_placement, placement_from_pose, placement_text
+from punctura.live.placement import load_placement, placement_from_pose, placement_text, present_pose
 from punctura.live.plug_ins import enumerate_devices
-from punctura.live.pose import present_pose
 from punctura.live.run_notes import damping_note, run_notes
 from punctura.live.second import SecondDevice, SecondDeviceError, direction_of
 from punctura.live.session import run_live

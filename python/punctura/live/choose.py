@@ -1,4 +1,4 @@
-"""Selects the device, and fits a scene to it."""
+"""Selects the device, and fits a scene to it; also the default motion of a simulated hand."""
 
 from __future__ import annotations
 
@@ -7,12 +7,26 @@ import warnings
 from collections.abc import Mapping
 
 from punctura import Scene
-from punctura._core import Device, DeviceError, GateLimits, SimulatedDevice, enumerate_devices, open_device
-from punctura.live.motion import strokes_through
+from punctura._core import (
+    Device,
+    DeviceError,
+    GateLimits,
+    SimulatedDevice,
+    Strokes,
+    enumerate_devices,
+    open_device,
+    stroke_ends,
+)
 from punctura.live.plug_ins import open_plug_in, plug_in_names, plug_in_states
 from punctura.results import BackendState
 
 ANY_PROCESSOR = -1
+
+
+def strokes_through(scene: Scene, count: int = 1000, duration: float = 2.0) -> Strokes:
+    """Strokes along the first membrane's normal, from in front of all membranes to behind the last."""
+    start, end = stroke_ends(scene)
+    return Strokes(start, end, count=count, duration=duration, rest=0.7, variation=0.05)
 
 
 class DeviceWarning(UserWarning):

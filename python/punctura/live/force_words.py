@@ -1,4 +1,7 @@
-"""The names of the two forces, for the terminal, results and files. The page has the same (web/src/state/scale.ts)."""
+"""The names of the two forces and of the limits, for the terminal, results and files.
+
+The page has the same names of the forces (web/src/state/scale.ts).
+"""
 
 from __future__ import annotations
 
@@ -13,3 +16,14 @@ def scale_text(scale: float) -> str:
 def felt_force(scale: float) -> str:
     """The name of the force on the hand, with the scale if the device gives less than the model's force."""
     return "felt force" if scale == 1 else f"felt force (x {scale_text(scale)})"
+
+
+# By the names of punctura._core.Limit, in the order of their codes.
+LIMIT_WORDS = {
+    "none": "",
+    "ramp": "growing after it was turned on",
+    "peak": "peak limit",
+    "continuous": "long-run limit",
+    "temperature": "warm motors",
+}
+CUTS = ("peak", "continuous", "temperature")  # they cut the force; a force that grows after arming is no news

@@ -1,16 +1,24 @@
-"""Placement files: the place of a device in the scene. TOML, in millimetres; the rotation is a quaternion."""
+"""Placement files: the place of a device in the scene. TOML, in millimetres; the rotation is a quaternion.
+
+Also reads the pose of a device, from which its place follows.
+"""
 
 from __future__ import annotations
 
 import os
+import time
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
 
-from punctura._core import Placement
+from punctura._core import DeviceError, Placement, ServoLoop
 from punctura.files.fields import Number, Quaternion, Vector
 from punctura.files.tables import Table
 from punctura.live.tables import in_si, read_table
+
+Array = npt.NDArray[np.float64]
+POLL_S = 0.01
 
 
 class PlacementFile(Table):
@@ -80,8 +88,29 @@ def shortest_turn(start: npt.ArrayLike, end: npt.ArrayLike) -> tuple[float, floa
     return float(q[0]), float(q[1]), float(q[2]), float(q[3])
 
 
-def rotate(quaternion: tuple[float, float, float, float], v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def rotate(quaternion: tuple[float, float, float, float], v: Array) -> Array:
     """v rotated by the unit quaternion w, x, y, z."""
     w, u = quaternion[0], np.array(quaternion[1:])
-    turned: npt.NDArray[np.float64] = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
+    turned: Array = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
     return turned
+
+
+def present_pose(
+    loop: ServoLoop, wait: float = 5.0, sleep: Callable[[float], None] = time.sleep
+) -> tuple[Array, Array]:
+    """Position (m) and axis in the last tick of a started loop. wait: the longest time to the first tick, s.
+
+    Raises DeviceError if no tick came in this time, or if the position is not finite.
+    """
+    for _ in range(max(1, round(wait / POLL_S))):
+        if loop.report()["ticks"]:
+            break
+        sleep(POLL_S)
+    else:
+        raise DeviceError(f"the device has not said in {wait:g} s where it is; {loop.device.trouble() or 'no reason'}")
+    last = loop.latest()
+    position, axis = last["position"][0], last["axis"][0]
+    points = np.isfinite(axis).all() and (axis.any() or not loop.device.info.has_orientation)
+    if not (np.isfinite(position).all() and points):
+        raise DeviceError(f"the device says that it is at {position}, pointing along {axis}: no place at all")
+    return position, axis

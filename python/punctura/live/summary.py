@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from punctura import Phase, Scene
 from punctura._core import Device, Fault, Limit, ServoLoop, ServoState, ThumbLoop, describe
 from punctura.device_words import statements_of, words_of
-from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 from punctura.live.run_notes import run_notes
 from punctura.ticks import ABSENT, Ticks
 

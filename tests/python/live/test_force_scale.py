@@ -5,8 +5,7 @@ import punctura as pn
 import pyarrow.parquet as pq
 import pytest
 from punctura._core import ServoLoop
-from punctura.cli._headless import begun, in_words
-from punctura.cli._status_line import status_text
+from punctura.cli._headless import begun, in_words, status_text
 from punctura.live import RunSummary, ServoState, SimulatedDevice, felt_force
 from punctura.record import Recorder, export, open_recording, replay, replay_device
 from punctura.scene import DisplaySettings

@@ -11,8 +11,7 @@ import punctura as pn
 import pytest
 from heed import heed_signals
 from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, describe
-from punctura.cli._headless import in_words
-from punctura.cli._status_line import status_text
+from punctura.cli._headless import in_words, status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 from punctura.simulation import Experiment, Strokes
 from waiting import LATE_ALLOWED, PATIENCE_S, wait_until

@@ -8,7 +8,7 @@ import make_contract
 import numpy as np
 import pytest
 from punctura._core import Limit
-from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 from punctura.studio.wire import FrameError, decode_ticks, encode_ticks, parse_request
 from punctura.studio.wire.frames import NUMBERS, WORDS
 from punctura.studio.wire.messages import Message

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from punctura.live.limit_words import CUTS, LIMIT_WORDS
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 
 if __name__ == "__main__":
     print(json.dumps({"words": LIMIT_WORDS, "cuts": CUTS}, indent=2))
