@@ -65,10 +65,10 @@ def begin_loop(program: Path, of: Slice) -> Callable[[], tuple[Latencies, dict[s
     process = subprocess.Popen([str(word) for word in command + where], stdout=subprocess.PIPE, text=True)
 
     def end() -> tuple[Latencies, dict[str, Any]]:
-        said, _ = process.communicate()
+        report, _ = process.communicate()
         if process.returncode != 0:
             raise ProgramError(f"{program.name} ended with {process.returncode}; see its message above")
-        return warm(np.fromfile(dump, np.int64)), json.loads(said)
+        return warm(np.fromfile(dump, np.int64)), json.loads(report)
 
     return end
 
@@ -94,14 +94,14 @@ def begin_cyclictest(cyclictest: str, of: Slice) -> Callable[[], Latencies]:
 
     def end() -> Latencies:
         _, complaint = process.communicate()
-        said = output.read_text()
+        report = output.read_text()
         if process.returncode != 0:
             raise ProgramError(f"{cyclictest} ended with {process.returncode}: {complaint.strip()[-400:]}")
         # thread: cycle: latency
-        latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", said, re.M), np.int64)
+        latencies = np.array(re.findall(r"^ *0: *\d+: *(\d+)$", report, re.M), np.int64)
         if len(latencies) != of.wake_ups:
             raise ProgramError(
-                f"{cyclictest} reported {len(latencies)} of {of.wake_ups} wake-ups; it began: {said[:200]}"
+                f"{cyclictest} reported {len(latencies)} of {of.wake_ups} wake-ups; it began: {report[:200]}"
             )
         return warm(latencies)
 
@@ -155,9 +155,9 @@ def measure_wakeups(program: Path, seconds: float) -> dict[str, Any]:
     result: dict[str, Any] = {"rate_hz": RATE_HZ, "cyclictest": cyclictest, "processors": processors}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        _, said = begin_loop(program, Slice(0.1, PRIORITY, processors[0], folder))()
-        granted = said["realtime"].get(f"SCHED_FIFO real-time priority {PRIORITY}", False)
-        result |= {"realtime": said["realtime"], "priority": PRIORITY if granted else 0, "conditions": []}
+        _, report = begin_loop(program, Slice(0.1, PRIORITY, processors[0], folder))()
+        granted = report["realtime"].get(f"SCHED_FIFO real-time priority {PRIORITY}", False)
+        result |= {"realtime": report["realtime"], "priority": PRIORITY if granted else 0, "conditions": []}
         count = max(1, round(seconds / SLICE_S))
         where = [processors[i % len(processors)] for i in range(count)]
         slices = [Slice(min(seconds, SLICE_S), result["priority"], processor, folder) for processor in where]
@@ -184,9 +184,9 @@ def _condition(program: Path, cyclictest: str | None, slices: list[Slice]) -> di
             if end_other:
                 others.append(end_other())
         finally:
-            latencies, said = end_loop()
+            latencies, report = end_loop()
         loops.append(latencies)
-        missed += said["missed"]
+        missed += report["missed"]
     row: dict[str, Any] = {"loop": summary(loops) | {"missed": missed}}
     if others:
         row["cyclictest"] = summary(others)

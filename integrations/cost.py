@@ -200,9 +200,11 @@ def processor() -> str:
 
 def table(found: dict[str, float]) -> str:
     rows = [f"| {name} | {ns / 1000:.{2 if ns < 1e4 else 0}f} |" for name, ns in found.items()]
-    said = f"Measured in one run of `integrations/cost.py` on {datetime.date.today():%Y-%m-%d}, {processor()}, "
-    said += f"load {os.getloadavg()[0]:.0f}\non {os.cpu_count()} cores: the shortest of many runs in {ROUNDS} rounds.\n"
-    return said + "\n| a tick from | microseconds |\n|---|---|\n" + "\n".join(rows) + "\n"
+    heading = f"Measured in one run of `integrations/cost.py` on {datetime.date.today():%Y-%m-%d}, {processor()}, "
+    heading += (
+        f"load {os.getloadavg()[0]:.0f}\non {os.cpu_count()} cores: the shortest of many runs in {ROUNDS} rounds.\n"
+    )
+    return heading + "\n| a tick from | microseconds |\n|---|---|\n" + "\n".join(rows) + "\n"
 
 
 def main() -> None:

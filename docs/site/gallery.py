@@ -50,7 +50,7 @@ class Run:
 
 def run_python(path: Path) -> Run:
     """Runs an example in this process and listens to every servo loop that it starts."""
-    said, listeners = io.StringIO(), []
+    printed_text, listeners = io.StringIO(), []
     start = live.ServoLoop.start
 
     def start_and_listen(loop: live.ServoLoop, duration: float | None = None) -> None:
@@ -59,9 +59,9 @@ def run_python(path: Path) -> Run:
 
     live.ServoLoop.start = start_and_listen  # type: ignore[method-assign]
     try:
-        with contextlib.redirect_stdout(said):
+        with contextlib.redirect_stdout(printed_text):
             variables = runpy.run_path(str(path), run_name="__main__")
-        return Run(variables, said.getvalue(), [listener.read() for listener in listeners])
+        return Run(variables, printed_text.getvalue(), [listener.read() for listener in listeners])
     finally:
         live.ServoLoop.start = start  # type: ignore[method-assign]
 
@@ -150,13 +150,13 @@ def write(folder: Path) -> None:
         "The numbered [examples](../examples/README.md). The pictures were drawn from their results at this build.",
         "",
     ]
-    told = dict(re.findall(r"^\| (\d\d) \| (.*?) \|", (EXAMPLES / "README.md").read_text(encoding="utf-8"), re.M))
+    titles = dict(re.findall(r"^\| (\d\d) \| (.*?) \|", (EXAMPLES / "README.md").read_text(encoding="utf-8"), re.M))
     for stem in sorted({path.stem for path in EXAMPLES.glob("*/[0-9][0-9]_*.*")}):
         python, cpp = EXAMPLES / "python" / f"{stem}.py", EXAMPLES / "cpp" / f"{stem}.cpp"
         if stem not in PICTURES:
             sys.exit(f"example {stem} has no picture: add a function for it to PICTURES in docs/site/gallery.py")
         draw(run_python(python) if python.exists() else run_cpp(cpp, folder), stem, folder)
-        words = re.sub(r": \[.*$", "", told[stem[:2]])
+        words = re.sub(r": \[.*$", "", titles[stem[:2]])
         lines += [f"## {stem[:2]} {words[0].upper()}{words[1:]}", ""]
         lines += [f"![Force of example {stem}]({stem}-{theme}.svg){{.only-{theme}}}" for theme in INKS]
         for language, path in (("python", python), ("cpp", cpp)):

@@ -46,10 +46,10 @@ PATIENCE_S = 120
 
 
 def run_python(code: str, example: Example) -> None:
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
         PythonEvaluator()(example)
-    example.namespace["_printed"] = said.getvalue()
+    example.namespace["_printed"] = printed.getvalue()
 
 
 def run_shell(code: str, example: Example) -> None:

@@ -55,11 +55,11 @@ def go_on(slave):
 
 def read_until(master, text, seconds=120):
     """The output up to this text, with the program's line endings."""
-    said = b""
-    while text not in said.replace(b"\r\n", b"\n"):
-        assert select.select([master], [], [], seconds)[0], said
-        said += os.read(master, 65536)
-    return said.replace(b"\r\n", b"\n").decode()
+    shown = b""
+    while text not in shown.replace(b"\r\n", b"\n"):
+        assert select.select([master], [], [], seconds)[0], shown
+        shown += os.read(master, 65536)
+    return shown.replace(b"\r\n", b"\n").decode()
 
 
 BLOCKED = {"a stopped terminal": stopped_terminal, "a pipe that nobody reads": unread_pipe}

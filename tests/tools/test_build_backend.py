@@ -75,10 +75,10 @@ def pip_with_compiler(pip: Pip) -> Pip:
 
 @pytest.mark.parametrize("hook", ["build_wheel", "build_editable"])
 def test_without_a_compiler_pip_says_what_to_install_before_anything_is_built(pip: Pip, hook: str) -> None:
-    said = pip.call(hook)
-    assert said.returncode == 1 and "Traceback" not in said.stderr
-    assert "there is no C++ compiler" in said.stderr
-    assert any(line in said.stderr for line in ("apt-get install g++", "dnf install gcc-c++", "xcode-select --install"))
+    done = pip.call(hook)
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "there is no C++ compiler" in done.stderr
+    assert any(line in done.stderr for line in ("apt-get install g++", "dnf install gcc-c++", "xcode-select --install"))
     assert not pip.native_started and not pip.npm_log.exists()
 
 
@@ -88,15 +88,15 @@ def test_an_sdist_needs_no_compiler(pip: Pip) -> None:
 
 def test_a_compiler_too_old_for_cpp_20_is_told_in_its_own_words(pip: Pip) -> None:
     pip.script("c++", "#!/bin/sh\necho \"c++: error: unrecognized command line option '-std=c++20'\" >&2\nexit 1\n")
-    said = pip.call()
-    assert said.returncode == 1 and not pip.native_started
-    assert "not a C++20 compiler (c++: error: unrecognized" in said.stderr
+    done = pip.call()
+    assert done.returncode == 1 and not pip.native_started
+    assert "not a C++20 compiler (c++: error: unrecognized" in done.stderr
 
 
 def test_a_cxx_that_does_not_start_is_told_by_its_name(pip_with_compiler: Pip) -> None:
-    said = pip_with_compiler.call(CXX="no-such-compiler -m64")
-    assert said.returncode == 1 and not pip_with_compiler.native_started
-    assert "CXX=no-such-compiler -m64 does not start" in said.stderr and "leave CXX unset" in said.stderr
+    done = pip_with_compiler.call(CXX="no-such-compiler -m64")
+    assert done.returncode == 1 and not pip_with_compiler.native_started
+    assert "CXX=no-such-compiler -m64 does not start" in done.stderr and "leave CXX unset" in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -109,8 +109,8 @@ def test_a_compiler_that_is_named_to_cmake_is_left_to_cmake(pip: Pip, environmen
 def test_python_headers_that_are_missing_are_reported(pip_with_compiler: Pip, tmp_path: Path) -> None:
     code = "import sysconfig; sysconfig.get_path = lambda *_: '/nowhere'\n"
     (pip_with_compiler.stubs / "sitecustomize.py").write_text(code)
-    said = pip_with_compiler.call()
-    assert said.returncode == 1 and "Python's headers are missing (/nowhere/Python.h)" in said.stderr
+    done = pip_with_compiler.call()
+    assert done.returncode == 1 and "Python's headers are missing (/nowhere/Python.h)" in done.stderr
 
 
 REMEDIES = [
@@ -161,6 +161,6 @@ def test_the_tests_keep_node_modules_for_their_next_build(pip_with_compiler: Pip
 def test_a_page_that_cannot_be_built_leaves_no_node_modules_either(pip_with_compiler: Pip) -> None:
     npm = '#!/bin/sh\nif [ "$1" = ci ]; then mkdir -p node_modules; else exit 1; fi\n'
     pip_with_compiler.script("npm", npm)
-    said = pip_with_compiler.call()
-    assert said.returncode == 1 and "page cannot be built" in said.stderr
+    done = pip_with_compiler.call()
+    assert done.returncode == 1 and "page cannot be built" in done.stderr
     assert not (pip_with_compiler.tree / "web/node_modules").exists()

@@ -17,8 +17,8 @@ def test_warnings_are_errors_only_with_a_compiler_that_the_tests_are_run_with(tm
         f'include("{ROOT}/cmake/tested_compilers.cmake")\n'
         + "".join(f'punctura_compiler_is_tested("{id}" "{at}" answer)\nmessage("${{answer}}")\n' for id, at in asked)
     )
-    said = subprocess.run(["cmake", "-P", script], capture_output=True, text=True, check=True)
-    assert said.stderr.split() == ["TRUE"] * len(TESTED) + ["FALSE"] * len(OTHERS)
+    done = subprocess.run(["cmake", "-P", script], capture_output=True, text=True, check=True)
+    assert done.stderr.split() == ["TRUE"] * len(TESTED) + ["FALSE"] * len(OTHERS)
 
 
 def test_the_note_names_the_compilers_that_are_tested() -> None:

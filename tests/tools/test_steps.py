@@ -52,18 +52,18 @@ run_steps
 def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tmp_path):
     steps = "step_tree() { sleep 0.3; }; step_web() { echo said; return 3; }; step_cpp() { echo '2 passed in 1.0s'; }"
     with start(tmp_path, steps, "tree", "web", "cpp", "web") as run:
-        said = run.communicate(timeout=PATIENCE_S)[0]
+        printed = run.communicate(timeout=PATIENCE_S)[0]
     assert run.returncode == 1
-    assert re.findall(r"^  (\w+) +(passed|FAILED)", said, re.M) == [
+    assert re.findall(r"^  (\w+) +(passed|FAILED)", printed, re.M) == [
         ("tree", "passed"), ("web", "FAILED"), ("cpp", "passed"),
     ]  # fmt: skip
-    assert "    said\n" in said and "2 passed in 1.0s" in said and said.endswith("2 passed, 1 failed\n")
+    assert "    said\n" in printed and "2 passed in 1.0s" in printed and printed.endswith("2 passed, 1 failed\n")
 
 
 def test_a_step_that_was_killed_has_failed(tmp_path):
     with start(tmp_path, "step_web() { kill -KILL 0; }", "web") as run:
-        said = run.communicate(timeout=PATIENCE_S)[0]
-    assert run.returncode == 1 and "FAILED" in said and "0 passed, 1 failed" in said
+        printed = run.communicate(timeout=PATIENCE_S)[0]
+    assert run.returncode == 1 and "FAILED" in printed and "0 passed, 1 failed" in printed
 
 
 @pytest.mark.parametrize("how", ENDS)

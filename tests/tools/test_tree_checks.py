@@ -34,7 +34,7 @@ def plant(root: Path, **files: str) -> Path:
     return root
 
 
-def said(module: ModuleType, root: Path) -> list[str]:
+def found_by(module: ModuleType, root: Path) -> list[str]:
     return [str(finding) for finding in module.findings(root)]
 
 
@@ -52,7 +52,7 @@ def test_a_number_that_follows_the_locale_is_found(check, tmp_path):
     text = 'snprintf(text, 9, "%d %.4g", 1, x);\nprintf("%5.1f");  // %g\nsnprintf(text, 9, "%d %%");\nstrtod(a, b);\n'
     root = plant(tmp_path, capi__a_dot_cpp=text, examples__b_dot_cpp=text)
     places = [(1, "%.4g"), (2, "%5.1f"), (4, "strtod")]
-    assert said(check("locale"), root) == [
+    assert found_by(check("locale"), root) == [
         f"capi/a.cpp:{n}: {what} follows the locale: use decimal.hpp" for n, what in places
     ]
 
@@ -66,7 +66,7 @@ def test_an_include_of_a_lower_room_is_found(check, tmp_path):
         core__punctura__model__c_dot_hpp="",
         core__punctura__servo__d_dot_hpp="",
     )
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         "core/punctura/model/a.hpp:2: core/punctura/model may not include core/punctura/proxy/b.hpp, "
         "which is in a lower room",
         "core/punctura/proxy/b2.hpp:1: core/punctura/proxy may not include core/punctura/servo/d.hpp, "
@@ -80,7 +80,7 @@ def test_an_unknown_room_and_a_header_that_is_not_there_are_found(check, tmp_pat
         core__punctura__attic__a_dot_hpp="",
         core__punctura__model__b_dot_hpp='#include "punctura/model/gone.hpp"\n',
     )
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         "core/punctura/attic/a.hpp:1: is in no room that tools/check_rooms.py knows",
         "core/punctura/model/b.hpp:1: includes punctura/model/gone.hpp, which does not exist",
     ]
@@ -88,7 +88,7 @@ def test_an_unknown_room_and_a_header_that_is_not_there_are_found(check, tmp_pat
 
 def test_the_package_may_not_import_tests(check, tmp_path):
     root = plant(tmp_path, python__punctura__scene__a_dot_py="import numpy\nfrom oracles import law\n")
-    assert said(check("rooms"), root) == ["python/punctura/scene/a.py:2: the package may not import oracles"]
+    assert found_by(check("rooms"), root) == ["python/punctura/scene/a.py:2: the package may not import oracles"]
 
 
 PYTHON_ROOMS = ("files", "scene", "simulation", "record", "events", "live", "exercise", "reproduce", "studio", "cli")
@@ -100,7 +100,7 @@ def test_a_python_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_no
     def found(room: str, other: str) -> list[str]:
         root = plant(tmp_path / room, **{f"python__punctura__{other}__b_dot_py": ""})
         plant(root, **{f"python__punctura__{room}__a_dot_py": f"from punctura.{other} import b\n"})
-        return said(check("rooms"), root)
+        return found_by(check("rooms"), root)
 
     assert found(lower, higher) == []
     assert found(higher, lower) == [
@@ -124,7 +124,7 @@ def test_every_form_of_a_python_import_is_read(check, tmp_path, text):
     root = plant(tmp_path, python__punctura__scene__a_dot_py=text, python__punctura__cli__b_dot_py="")
     (root / "python/punctura/cli/__init__.py").write_text("")
     (root / "python/punctura/__init__.py").write_text("from punctura.cli import main\n")
-    found = said(check("rooms"), root)
+    found = found_by(check("rooms"), root)
     line = text.count("\n")
     where = f"python/punctura/scene/a.py:{line}: python/punctura/scene may not import"
     assert [one for one in found if one.startswith(where)] == [
@@ -135,9 +135,9 @@ def test_every_form_of_a_python_import_is_read(check, tmp_path, text):
 def test_an_import_from_punctura_counts_for_the_module_that_has_the_name(check, tmp_path):
     root = plant(tmp_path, python__punctura__scene__a_dot_py="from punctura import Scene, _core\n")
     (root / "python/punctura/__init__.py").write_text("from punctura._core import Scene\n__version__ = '1'\n")
-    assert said(check("rooms"), root) == []
+    assert found_by(check("rooms"), root) == []
     plant(tmp_path, python__punctura__scene__a_dot_py="from punctura import __version__\n")
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         "python/punctura/scene/a.py:1: python/punctura/scene may not import python/punctura/__init__.py, "
         "which is in a lower room"
     ]
@@ -148,7 +148,7 @@ def test_a_page_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(
     def found(room: str, other: str) -> list[str]:
         root = plant(tmp_path / room, **{f"web__src__{other}__b_dot_ts": "export const b = 1;\n"})
         plant(root, **{f"web__src__{room}__a_dot_ts": f'import {{ b }} from "../{other}/b.ts";\n'})
-        return said(check("rooms"), root)
+        return found_by(check("rooms"), root)
 
     assert found(lower, higher) == []
     assert found(higher, lower) == [
@@ -170,7 +170,7 @@ def test_a_page_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(
 def test_every_form_of_a_page_import_is_read(check, tmp_path, text):
     root = plant(tmp_path, web__src__scene__a_dot_ts=text, web__src__controls__b_dot_ts="")
     line = text.count("\n") + 1
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         f"web/src/scene/a.ts:{line}: web/src/scene may not import web/src/controls/b.ts, which is in a lower room"
     ]
 
@@ -186,7 +186,7 @@ def test_files_that_import_each_other_are_found(check, tmp_path):
         web__src__plots__b_dot_ts='import type { A } from "./a.ts";',
     )
     files = ", ".join(f"python/punctura/studio/{name}.py" for name in "abc")
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         f"python/punctura/studio/a.py:1: import circle: {files}",
         "web/src/plots/a.ts:1: import circle: web/src/plots/a.ts, web/src/plots/b.ts",
     ]
@@ -200,7 +200,7 @@ def test_python_and_page_files_outside_all_rooms_and_page_files_that_are_not_the
         web__src__state__a_dot_ts='import "./gone.ts";\nimport "./style.css";\n',
     )
     reason = "is in no room that tools/check_rooms.py knows"
-    assert said(check("rooms"), root) == [
+    assert found_by(check("rooms"), root) == [
         f"python/punctura/attic/a.py:1: {reason}",
         f"web/src/attic/a.ts:1: {reason}",
         "web/src/state/a.ts:1: imports ./gone.ts, which does not exist",
@@ -209,22 +209,22 @@ def test_python_and_page_files_outside_all_rooms_and_page_files_that_are_not_the
 
 def test_a_file_of_351_lines_is_found_and_one_of_350_is_not(check, tmp_path):
     root = plant(tmp_path, a_dot_py="x = 1\n" * 350, b_dot_cpp="\n", c_dot_hpp="\n", d_dot_sh="\n")
-    assert said(check("sizes"), root) == []
+    assert found_by(check("sizes"), root) == []
     plant(tmp_path, a_dot_py="x = 1\n" * 351)
-    assert said(check("sizes"), root) == ["a.py:351: 351 lines; the limit is 350"]
+    assert found_by(check("sizes"), root) == ["a.py:351: 351 lines; the limit is 350"]
 
 
 def test_too_many_files_over_200_lines_are_found(check, tmp_path):
     root = plant(tmp_path, a_dot_py="\n" * 201, b_dot_py="\n" * 220, c_dot_py="\n")
-    assert said(check("sizes"), root) == ["b.py:220: one of 2 files over 200 lines; the limit is a quarter of 3"]
+    assert found_by(check("sizes"), root) == ["b.py:220: one of 2 files over 200 lines; the limit is a quarter of 3"]
 
 
 @pytest.mark.parametrize("name", ["a.py", "a.ts", "a.hpp", "a.sh", "a.cmake"])
 def test_a_line_of_121_columns_is_found_and_one_of_120_is_not(check, tmp_path, name):
     (tmp_path / name).write_text("x\n" + "é" * 120 + "\n", encoding="utf-8")
-    assert said(check("sizes"), tmp_path) == []
+    assert found_by(check("sizes"), tmp_path) == []
     (tmp_path / name).write_text("x\n" + "é" * 121 + "\n", encoding="utf-8")
-    assert said(check("sizes"), tmp_path) == [f"{name}:2: 121 columns; the limit is 120"]
+    assert found_by(check("sizes"), tmp_path) == [f"{name}:2: 121 columns; the limit is 120"]
 
 
 def test_a_web_address_a_generated_file_and_a_document_may_have_longer_lines(check, tmp_path):
@@ -236,7 +236,7 @@ def test_a_web_address_a_generated_file_and_a_document_may_have_longer_lines(che
         web__src__wire__tick_table_dot_ts=long,
         docs__a_dot_md=long,
     )
-    assert said(check("sizes"), root) == []
+    assert found_by(check("sizes"), root) == []
 
 
 GOOD = {
@@ -254,7 +254,7 @@ TABLE = """
 
 
 def test_a_table_that_fits_the_sources_is_in_order(check, tmp_path):
-    assert said(check("equations"), plant(tmp_path, **GOOD, docs__equations_dot_md=TABLE)) == []
+    assert found_by(check("equations"), plant(tmp_path, **GOOD, docs__equations_dot_md=TABLE)) == []
 
 
 @pytest.mark.parametrize(
@@ -278,8 +278,8 @@ def test_a_table_that_fits_the_sources_is_in_order(check, tmp_path):
 def test_whatever_does_not_fit_the_table_is_found(check, tmp_path, old, new, finding):
     assert old in TABLE
     root = plant(tmp_path, **GOOD, docs__equations_dot_md=TABLE.replace(old, new))
-    assert finding in said(check("equations"), root)
+    assert finding in found_by(check("equations"), root)
 
 
 def test_a_missing_table_is_found(check, tmp_path):
-    assert said(check("equations"), plant(tmp_path, **GOOD)) == ["docs/equations.md:1: is missing"]
+    assert found_by(check("equations"), plant(tmp_path, **GOOD)) == ["docs/equations.md:1: is missing"]

@@ -11,15 +11,15 @@ from typer.testing import CliRunner
 
 
 def asked(*words):
-    told = CliRunner().invoke(build_app("identify"), ["identify", *map(str, words)])
-    return told, f"{told.exception}"
+    answer = CliRunner().invoke(build_app("identify"), ["identify", *map(str, words)])
+    return answer, f"{answer.exception}"
 
 
 def test_needle_columns_and_units_are_asked_at_once_with_the_whole_command(tmp_path):
     made, file = trace(), tmp_path / "my trace.csv"
     np.savetxt(file, np.column_stack((made.depth, made.force)), delimiter=",", header="a,load", comments="")
-    told, text = asked(file, "--membranes", 2, "--unit", "force=stone", "--json")
-    assert told.exit_code and "--needle is missing" in text and "'stone' is no unit of the force" in text
+    answer, text = asked(file, "--membranes", 2, "--unit", "force=stone", "--json")
+    assert answer.exit_code and "--needle is missing" in text and "'stone' is no unit of the force" in text
     command = text.split("The whole command: ")[1]
     assert command == (
         f"punctura identify '{file}' --membranes 2 --json --needle diameter_mm=D,tip_angle_deg=A "
@@ -30,14 +30,14 @@ def test_needle_columns_and_units_are_asked_at_once_with_the_whole_command(tmp_p
 def test_a_needle_alone_is_asked_for_with_the_whole_command_too(tmp_path):
     made, file = trace(), tmp_path / "a.csv"
     np.savetxt(file, np.column_stack((made.depth, made.force)), delimiter=",", header="depth_m,force_N", comments="")
-    told, text = asked(file, "--scene", tmp_path / "b.toml")
-    assert told.exit_code and text.startswith("--needle is missing")
+    answer, text = asked(file, "--scene", tmp_path / "b.toml")
+    assert answer.exit_code and text.startswith("--needle is missing")
     assert text.endswith(f"{file} --scene {tmp_path / 'b.toml'} --needle diameter_mm=D,tip_angle_deg=A")
-    told, text = asked(file, "--unit", "force=mN", "--column", "depth=x", "--order", "depth")
+    answer, text = asked(file, "--unit", "force=mN", "--column", "depth=x", "--order", "depth")
     stated = "--unit force=mN --order depth --needle diameter_mm=D,tip_angle_deg=A --column depth=NAME"
     assert "there is no column 'x' for the depth" in text and text.endswith(stated)
-    told = CliRunner().invoke(build_app("rivals"), ["rivals", str(file), "--unit", "force=stone"])
-    assert "punctura rivals" in f"{told.exception}" and f"{told.exception}".endswith("--unit force=UNIT")
+    answer = CliRunner().invoke(build_app("rivals"), ["rivals", str(file), "--unit", "force=stone"])
+    assert "punctura rivals" in f"{answer.exception}" and f"{answer.exception}".endswith("--unit force=UNIT")
 
 
 def test_speeds_are_stated_as_a_list_with_times():
@@ -65,5 +65,5 @@ def test_a_needle_of_a_wrong_unit_is_told_in_the_units_of_the_option(capsys):
     assert needle_of("diameter_mm=1.2, tip_angle_deg=20") == Needle(1.2e-3, np.radians(20))
     assert capsys.readouterr().err == ""
     needle_of("diameter_mm=0.0012,tip_angle_rad=0.3")
-    told = capsys.readouterr().err
-    assert "warning: the needle is unusual: 0.0012 mm thick" in told and "SI units" not in told
+    answer = capsys.readouterr().err
+    assert "warning: the needle is unusual: 0.0012 mm thick" in answer and "SI units" not in answer

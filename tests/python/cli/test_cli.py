@@ -103,8 +103,8 @@ def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
             text=True,
             env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
         )
-    said = "punctura: standard output cannot be written: No space left on device\n"
-    assert (done.returncode, done.stderr) == (1, said)
+    sentence = "punctura: standard output cannot be written: No space left on device\n"
+    assert (done.returncode, done.stderr) == (1, sentence)
 
 
 def test_an_unknown_verb_is_a_usage_error(punctura):
@@ -248,8 +248,8 @@ def test_a_signal_leaves_nothing_behind(tmp_path, name):
     wait_until(lambda: writes_in(tmp_path, process.pid) or process.poll() is not None)
     assert process.poll() is None
     process.send_signal(getattr(signal, name))
-    said = "interrupted" if name == "SIGINT" else f"ended by {name}"
-    assert process.communicate(timeout=PATIENCE_S)[1] == f"punctura: {said}\n"
+    sentence = "interrupted" if name == "SIGINT" else f"ended by {name}"
+    assert process.communicate(timeout=PATIENCE_S)[1] == f"punctura: {sentence}\n"
     assert process.returncode == 128 + getattr(signal, name)
     assert [p.name for p in tmp_path.iterdir()] == ["slow.csv"]
 

@@ -63,12 +63,12 @@ def test_what_cannot_be_scored_is_reported(punctura, recording, tmp_path):
 
 
 def test_the_coach_is_printed_with_the_score(punctura, recording):
-    said = punctura("exercise", "score", recording, "--exercise", "venipuncture").stdout
+    printed = punctura("exercise", "score", recording, "--exercise", "venipuncture").stdout
     result = json.loads(punctura("exercise", "score", recording, "--exercise", "venipuncture", "--json").stdout)
     change, good = result["coaching"]["change"], result["coaching"]["good"]
     assert change[0]["about"] == "through" and 0 < change[0]["numbers"]["speed_m_s"] < 0.05
-    assert f"\n  Next time: {change[0]['text']}\n" in said and said.count("  Next time: ") == 1
-    assert f"\n  What went well: {good[0]['text']}\n" in said and said.count("  What went well: ") == 1
+    assert f"\n  Next time: {change[0]['text']}\n" in printed and printed.count("  Next time: ") == 1
+    assert f"\n  What went well: {good[0]['text']}\n" in printed and printed.count("  What went well: ") == 1
 
 
 def test_results_are_exported_as_csv_and_as_xapi_statements(punctura, recording, tmp_path, monkeypatch):

@@ -246,15 +246,15 @@ def test_a_zip_file_that_cannot_be_written_leaves_the_earlier_one_as_it_was(
 
 
 def test_the_worker_tells_its_progress_and_its_result_or_the_reason(scene):
-    def told(**variation):
+    def answer(**variation):
         job = {"variation": {"scene": scene_text(scene), "path": PATH, "values": VALUES, **variation}}
         command = [sys.executable, "-m", "punctura.compare.worker"]
         done = subprocess.run(command, input=json.dumps(job), capture_output=True, text=True, check=True)
         return [json.loads(line) for line in done.stdout.splitlines()]
 
-    *shares, last = told()
+    *shares, last = answer()
     assert [one["share"] for one in shares] == pytest.approx([0, 1 / 3, 2 / 3])
     result = last["comparison"]
     assert len(result["statistics"]) == 3 and len(result["depth"]["membranes"]) == 3
     assert result["time"]["bands"]["depth"]["count"][0] == 3
-    assert "no field" in told(path="nothing")[-1]["error"]
+    assert "no field" in answer(path="nothing")[-1]["error"]

@@ -40,9 +40,9 @@ def one_start(monkeypatch):
 @pytest.mark.parametrize("seed", [27, 39])
 def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_start, monkeypatch):
     trace, needle = rise(seed)
-    told = []
-    found = identify(trace, needle, 1, report=told.append)
-    assert STEP in told
+    reports = []
+    found = identify(trace, needle, 1, report=reports.append)
+    assert STEP in reports
     monkeypatch.undo()
     best = identify(trace, needle, 1)
     assert found.fit.sse < best.fit.sse * (1 + 2 / len(trace))  # within two variances of a sample
@@ -51,9 +51,9 @@ def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_star
 
 def test_the_report_says_where_there_may_be_still_better_optima(one_start, monkeypatch):
     monkeypatch.setattr(sys.modules["punctura.identify.identify"], "BETTER_OPTIMA", 0)
-    told = []
-    found = identify(*rise(19), 1, report=told.append)
-    assert told.count(STEP) == 0
+    reports = []
+    found = identify(*rise(19), 1, report=reports.append)
+    assert reports.count(STEP) == 0
     assert any("better than the fit" in verdict for verdict in found.verdicts)
 
 

@@ -30,10 +30,10 @@ def test_noise_of_the_depth_makes_no_second_wall_and_the_spring_is_held(seed):
     assert found.doubts.explained.ok
     spring = next(one for one in found.estimates if one.name == "coupling_stiffness")
     assert spring.low <= truth["coupling_stiffness"] <= spring.high and spring.high < 1.15 * spring.low
-    told = found.as_dict()
+    record = found.as_dict()
     left = found.fit.misfit.forces(found.parameters) - found.trace.force
-    assert told["rmse_N"] == pytest.approx(np.sqrt(np.mean(left**2))) and told["rmse_N"] > found.fit.weighted_rmse
-    (known,) = told["rig"]
+    assert record["rmse_N"] == pytest.approx(np.sqrt(np.mean(left**2))) and record["rmse_N"] > found.fit.weighted_rmse
+    (known,) = record["rig"]
     assert (known["name"], known["stated"]) == ("depth_noise", False)
     assert known["value"] == pytest.approx(NOISE, rel=0.15)
 
@@ -180,15 +180,15 @@ def test_steps_of_the_depth_reach_the_interval_of_the_spring(seed):
 
 def test_the_depth_between_its_steps_knows_its_own_error():
     """In the rest, all samples have the same error."""
-    off, told = [], []
+    off, record = [], []
     for seed in range(1, 13):
         exact = by_machine(seed, 0.0)[0]
         quiet, size = with_quiet_depth(by_steps(seed)[0])
         assert size == pytest.approx(STEP / np.sqrt(12))
         rest = (exact.time > 2.25) & (exact.time < 2.55)
         off.append(np.mean((quiet.depth - exact.depth)[rest]))
-        told.append(quiet.depths[:, rest].mean(axis=1).std())
-    assert 0.7 < np.sqrt(np.mean(np.square(told)) / np.mean(np.square(off))) < 1.2
+        record.append(quiet.depths[:, rest].mean(axis=1).std())
+    assert 0.7 < np.sqrt(np.mean(np.square(record)) / np.mean(np.square(off))) < 1.2
 
 
 def test_a_noise_that_is_larger_than_the_steps_is_found():

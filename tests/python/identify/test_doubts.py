@@ -51,10 +51,10 @@ def at_two_speeds():
 def test_a_trace_of_the_model_itself_is_explained_in_any_white_noise():
     for seed in range(12):
         for noise in (2e-3, 20e-3):
-            told = doubted(trace(noise=noise, seed=seed))
-            assert told.explained.ok and told.sentences == () and told.causes == ()
-    assert told.explained.noise == pytest.approx(20e-3, rel=0.3) and told.explained.air
-    assert told.explained.runs == pytest.approx(told.explained.runs_of_noise, rel=0.15)
+            verdict = doubted(trace(noise=noise, seed=seed))
+            assert verdict.explained.ok and verdict.sentences == () and verdict.causes == ()
+    assert verdict.explained.noise == pytest.approx(20e-3, rel=0.3) and verdict.explained.air
+    assert verdict.explained.runs == pytest.approx(verdict.explained.runs_of_noise, rel=0.15)
 
 
 @pytest.mark.parametrize(
@@ -77,30 +77,30 @@ def test_a_trace_of_the_model_itself_is_explained_in_any_white_noise():
     ids=["barbs", "weak way out", "rate", "ripple", "wall more"],
 )
 def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
-    told = doubted(made)
-    assert not told.explained.ok and "does not explain the trace" in told.sentences[0]
-    named = next(cause for cause in told.causes if cause.kind == kind)
+    verdict = doubted(made)
+    assert not verdict.explained.ok and "does not explain the trace" in verdict.sentences[0]
+    named = next(cause for cause in verdict.causes if cause.kind == kind)
     assert words in named.text and "To tell: " in named.text and named.share > 0.6
-    assert told.explained.runs < 0.7 * told.explained.runs_of_noise
-    uneven = {cause.kind for cause in told.causes} & {"barbs", "asymmetric_way_out"}
+    assert verdict.explained.runs < 0.7 * verdict.explained.runs_of_noise
+    uneven = {cause.kind for cause in verdict.causes} & {"barbs", "asymmetric_way_out"}
     assert uneven == {kind} & {"barbs", "asymmetric_way_out"}  # a wall that resists on the way in alone is none
 
 
 def test_noise_of_the_depth_is_named_and_not_a_wall():
     made = trace(noise=8e-3)
     shaken = replace(made, depth=made.depth + 10e-6 * np.random.default_rng(2).normal(size=len(made)))
-    told = doubted(shaken)
-    assert not told.explained.ok and [cause.kind for cause in told.causes] == ["depth_noise"]
-    assert "noise of 10 um" in told.causes[0].text or "noise of 9" in told.causes[0].text
+    verdict = doubted(shaken)
+    assert not verdict.explained.ok and [cause.kind for cause in verdict.causes] == ["depth_noise"]
+    assert "noise of 10 um" in verdict.causes[0].text or "noise of 9" in verdict.causes[0].text
 
 
 def test_a_tremor_of_the_hand_is_no_noise_of_the_depth():
     time, depth = motion()
     shaken = depth + 0.1e-3 * np.sin(2 * np.pi * 10 * time)
     force = pulled(2.2)(shaken, force_of(shaken), None) + 8e-3 * np.random.default_rng(1).normal(size=len(depth))
-    told = doubted(Trace(shaken, force, time))
-    assert not told.explained.ok and told.causes
-    assert "depth_noise" not in [cause.kind for cause in told.causes]
+    verdict = doubted(Trace(shaken, force, time))
+    assert not verdict.explained.ok and verdict.causes
+    assert "depth_noise" not in [cause.kind for cause in verdict.causes]
 
 
 def test_the_place_that_is_not_explained_is_named():
@@ -132,9 +132,9 @@ def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless
     smooth = changed(pulled(0.5), noise=0.0).force
     there = Explains(made, found.parameters)
     left = replace(found, misfit=there, residuals=smooth - made.force)
-    told = doubts(made, segment(made), left, ("tail",))
-    assert told.explained.ok and [cause.kind for cause in told.causes] == ["asymmetric_way_out"]
-    assert "do not trust its walls" in told.sentences[0]
+    verdict = doubts(made, segment(made), left, ("tail",))
+    assert verdict.explained.ok and [cause.kind for cause in verdict.causes] == ["asymmetric_way_out"]
+    assert "do not trust its walls" in verdict.sentences[0]
     assert doubts(made, segment(made), left, ("set",)).causes == ()
 
 
@@ -145,9 +145,9 @@ def test_the_command_names_it_and_draws_it(punctura, tmp_path):
     needle = f"diameter_mm={NEEDLE.diameter * 1e3},tip_angle_rad={NEEDLE.tip_angle}"
     done = punctura("identify", tmp_path / "a.csv", "--needle", needle, "--membranes", 1, "--json",
                     "--report", tmp_path / "a.html")  # fmt: skip
-    told = json.loads(done.stdout)
-    assert told["explained"]["causes"][0]["kind"] == "barbs"
-    assert any("The way out is asymmetric" in text for text in told["verdicts"])
+    verdict = json.loads(done.stdout)
+    assert verdict["explained"]["causes"][0]["kind"] == "barbs"
+    assert any("The way out is asymmetric" in text for text in verdict["verdicts"])
     assert "The way out is asymmetric" in (tmp_path / "a.html").read_text()
 
 
@@ -175,5 +175,5 @@ def test_no_advice_asks_for_what_the_trace_has(kind):
 
 def test_no_experiment_is_advised_for_a_parameter_of_a_model_that_does_not_explain_the_trace():
     made = trace(noise=8e-3)
-    said = of(made, unknown("relaxation_1_time"), unknown("membrane[0].friction"), explained=False)[0]
-    assert "relaxation_1_time, membrane[0].friction" in said and "rest for" not in said
+    sentence = of(made, unknown("relaxation_1_time"), unknown("membrane[0].friction"), explained=False)[0]
+    assert "relaxation_1_time, membrane[0].friction" in sentence and "rest for" not in sentence

@@ -44,8 +44,8 @@ def test_a_broken_file_does_not_stop_the_others_and_a_second_run_keeps_results(t
         write(folder / f"{seed}.csv", trace(noise=0.01, seed=seed, hold=0.2, speed=10e-3))
     (folder / "broken.csv").write_text("time_s,depth_mm,force_N\nx,y,z\n")
     task, heard = Task(NEEDLE, membranes=1), []
-    told = identify_folder(folder, out, task, 1, heard.append)
-    assert told["identified"] == 2 and told["kept"] == 0 and set(told["failed"]) == {"broken.csv"}
+    summary = identify_folder(folder, out, task, 1, heard.append)
+    assert summary["identified"] == 2 and summary["kept"] == 0 and set(summary["failed"]) == {"broken.csv"}
     assert heard[-1] == 1.0
     rows = pq.read_table(out / "traces.parquet").to_pylist()
     assert {row["trace"] for row in rows} == {"1.csv", "2.csv"}
@@ -66,8 +66,8 @@ def test_a_process_that_dies_takes_no_other_trace_with_it_and_is_not_kept(tmp_pa
     for name in ("dies.csv", "z.csv"):
         (folder / name).write_text("1,2")
     monkeypatch.setattr(folder_module, "_one", dies)
-    told = identify_folder(folder, out, Task(NEEDLE), 1)
-    assert "memory" in told["failed"]["dies.csv"] and told["failed"]["z.csv"] == "was reached"
+    summary = identify_folder(folder, out, Task(NEEDLE), 1)
+    assert "memory" in summary["failed"]["dies.csv"] and summary["failed"]["z.csv"] == "was reached"
     assert {path.name for path in out.glob("*.json")} == {"z.csv.json"}
 
 
@@ -101,8 +101,8 @@ def test_an_interrupt_does_not_wait_for_the_traces_that_are_computed(tmp_path, m
 def test_ctrl_c_while_the_processes_start_is_for_the_program_alone(tmp_path, monkeypatch):
     (tmp_path / "a.csv").write_text("1,2")
     monkeypatch.setattr(folder_module, "_one", holds_ctrl_c)
-    told = identify_folder(tmp_path, tmp_path / "out", Task(NEEDLE), 1)
-    assert told["failed"] == {"a.csv": "held"}
+    summary = identify_folder(tmp_path, tmp_path / "out", Task(NEEDLE), 1)
+    assert summary["failed"] == {"a.csv": "held"}
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
@@ -113,12 +113,12 @@ def test_a_file_that_lacks_a_package_is_tried_again_and_another_version_computes
         (folder / name).write_text("no table")
     monkeypatch.setitem(sys.modules, "scipy.io", None)
     monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
-    told = identify_folder(folder, out, Task(NEEDLE))
-    assert "needs the package scipy" in told["failed"]["a.mat"] and told["kept"] == 0
+    summary = identify_folder(folder, out, Task(NEEDLE))
+    assert "needs the package scipy" in summary["failed"]["a.mat"] and summary["kept"] == 0
     monkeypatch.undo()
     monkeypatch.setattr(folder_module, "_pool", lambda processes: ThreadPoolExecutor(1))
-    told = identify_folder(folder, out, Task(NEEDLE))
-    assert "is no MAT file" in told["failed"]["a.mat"] and told["kept"] == 1
+    summary = identify_folder(folder, out, Task(NEEDLE))
+    assert "is no MAT file" in summary["failed"]["a.mat"] and summary["kept"] == 1
     monkeypatch.setattr(punctura, "__version__", "another")
     assert identify_folder(folder, out, Task(NEEDLE))["kept"] == 0
 
@@ -129,11 +129,11 @@ def test_names_that_are_long_or_no_text_are_files_as_others(tmp_path, monkeypatc
     folder.mkdir()
     for name in names:
         (folder / os.fsdecode(name)).write_text("1,2")
-    told = {"error": None, "rmse_N": 0.1, "membranes": 1, "extensions": [], "parameters": [ROW]}
+    summary = {"error": None, "rmse_N": 0.1, "membranes": 1, "extensions": [], "parameters": [ROW]}
     monkeypatch.setattr(
         folder_module,
         "_computed",
-        lambda paths, task, processes: ((path, told | {"trace": str(path)}, False) for path in paths),
+        lambda paths, task, processes: ((path, summary | {"trace": str(path)}, False) for path in paths),
     )
     for _ in range(2):
         assert identify_folder(folder, tmp_path / "out", Task(NEEDLE))["identified"] == 2
@@ -161,8 +161,8 @@ def test_a_value_with_a_large_error_is_drawn_further_to_the_mean():
 
 def test_a_population_needs_two_traces_with_both_bounds():
     assert population([ROW, ROW | {"low": None}]) == []
-    [told] = population([ROW, ROW | {"value": 2.0, "low": 1.8, "high": 2.2}])
-    assert told["spread_is_relative"] and told["mean"] == pytest.approx(np.sqrt(2), rel=0.02)
+    [summary] = population([ROW, ROW | {"value": 2.0, "low": 1.8, "high": 2.2}])
+    assert summary["spread_is_relative"] and summary["mean"] == pytest.approx(np.sqrt(2), rel=0.02)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only here names are bytes")

@@ -181,9 +181,9 @@ def test_the_command_writes_json_and_a_scene_that_runs(tmp_path):
     arguments = ["identify", str(tmp_path / "a.csv"), "--needle", "diameter_mm=1.2,tip_angle_rad=0.4", "--scene", scene]
     ran = CliRunner().invoke(build_app(), [*arguments, "--membranes", "1", "--json"])
     assert ran.exit_code == 0, ran.output
-    told = json.loads(ran.stdout)
-    assert told["rmse_N"] == pytest.approx(0.01, rel=0.05)
-    assert {parameter["name"] for parameter in told["parameters"]} >= set(TRUTH)
+    record = json.loads(ran.stdout)
+    assert record["rmse_N"] == pytest.approx(0.01, rel=0.05)
+    assert {parameter["name"] for parameter in record["parameters"]} >= set(TRUTH)
     _, depth = motion()
     ticks = pn.simulate(scene, depth - 5e-3)
     assert np.abs(ticks.force).max() == pytest.approx(made.force.max(), rel=0.1)

@@ -39,8 +39,8 @@ def test_a_late_force_is_found_and_the_spring_is_held(kind, machine):
     (known,) = found.as_dict()["rig"]
     assert (known["name"], known["unit"], known["stated"]) == (kind, "s", False)
     assert known["value"] == pytest.approx(LATE, rel=0.1)
-    (said,) = [one for one in found.verdicts if "comes late" in one]
-    assert said.startswith("The measured force comes late") and f"--rig {kind}_ms=0" in said
+    (verdict,) = [one for one in found.verdicts if "comes late" in one]
+    assert verdict.startswith("The measured force comes late") and f"--rig {kind}_ms=0" in verdict
 
 
 def test_a_depth_that_is_late_is_a_negative_delay():
@@ -145,6 +145,6 @@ def test_a_lag_that_cannot_be_is_named():
         (Rig(delay=1.0), "rig.delay"),
         (Rig(lag_tolerance=1e-3), "rig.lag_tolerance"),
     ):
-        with pytest.raises(ConfigurationError) as told:
+        with pytest.raises(ConfigurationError) as error:
             identify(trace, needle, 1, rig=rig)
-        assert [problem.path for problem in told.value.problems] == [name]
+        assert [problem.path for problem in error.value.problems] == [name]

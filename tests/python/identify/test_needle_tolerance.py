@@ -70,9 +70,9 @@ def test_a_rig_that_cannot_be_is_named_before_the_fit(wrong, tmp_path):
         lambda: identify(trace, needle, 1, lambda step: pytest.fail(step), rig),
         lambda: identify_folder(tmp_path, tmp_path / "out", Task(needle, rig=rig)),
     ):
-        with pytest.raises(ConfigurationError) as told:
+        with pytest.raises(ConfigurationError) as error:
             begin()
-        names = [problem.path for problem in told.value.problems]
+        names = [problem.path for problem in error.value.problems]
         assert names == ["rig.depth_noise", "rig.diameter_tolerance", "rig.tip_angle_tolerance"]
 
 

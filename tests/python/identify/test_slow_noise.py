@@ -43,17 +43,17 @@ def test_the_told_spread_is_that_of_many_fits(mixture):
     root = np.linalg.cholesky(matrix(mixture, n))
     made = [wave_fit(root @ rng.normal(size=n)) for _ in range(60)]
     true = made[0][2] @ made[0][1].T @ matrix(mixture, n) @ made[0][1] @ made[0][2]
-    told = np.median([np.diag(NoiseOfFit(left, columns).spread(inverse)) for left, columns, inverse in made], axis=0)
-    assert told / np.diag(true) == pytest.approx(np.ones(2), abs=0.3)
+    stated = np.median([np.diag(NoiseOfFit(left, columns).spread(inverse)) for left, columns, inverse in made], axis=0)
+    assert stated / np.diag(true) == pytest.approx(np.ones(2), abs=0.3)
 
 
 def test_a_parameter_that_leaves_no_trace_does_not_disturb_the_others():
     noise = np.random.default_rng(3).normal(size=300)
     left, columns, inverse = wave_fit(noise)
     blind = np.column_stack((columns, np.zeros(300)))
-    told = NoiseOfFit(left, blind).spread(np.pad(inverse, ((0, 1), (0, 1))))
+    stated = NoiseOfFit(left, blind).spread(np.pad(inverse, ((0, 1), (0, 1))))
     alone = NoiseOfFit(left, columns).spread(inverse)
-    assert np.isfinite(told).all() and told[:2, :2] == pytest.approx(alone, rel=0.1, abs=1e-5)
+    assert np.isfinite(stated).all() and stated[:2, :2] == pytest.approx(alone, rel=0.1, abs=1e-5)
 
 
 def test_the_place_of_a_pop_between_two_samples_is_not_known():

@@ -74,10 +74,10 @@ def test_a_terminal_that_comes_back_is_told_what_it_has_missed():
         stream.flush()
         dropped = stream._dropped
         go_on(slave)
-        said = read_until(master, b"line 499\n").splitlines()
-        at = said.index(f"punctura: {dropped} lines left out here: nobody read in time")
+        seen_lines = read_until(master, b"line 499\n").splitlines()
+        at = seen_lines.index(f"punctura: {dropped} lines left out here: nobody read in time")
         shown = [f"line {i}" for i in (*range(at), *range(at + dropped, 500))]
-        assert said[:at] + said[at + 1 :] == shown and at == 1 and dropped > 100
+        assert seen_lines[:at] + seen_lines[at + 1 :] == shown and at == 1 and dropped > 100
         print("and on", file=stream)
         assert read_until(master, b"and on\n") == "and on\n"
         wait_until(lambda: stream.offer("status"))  # what was read may not be counted as written yet

@@ -46,9 +46,9 @@ def test_a_signal_ends_the_run_and_a_second_one_cuts_nothing_short(tmp_path, nam
     for _ in range(3):
         process.send_signal(number)
         time.sleep(0.02)
-    printed, said = process.communicate(timeout=PATIENCE_S)
+    printed, report = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 128 + number
-    assert " 0 lost" in said and "leaked" not in said and "Traceback" not in said
+    assert " 0 lost" in report and "leaked" not in report and "Traceback" not in report
     recording = open_recording(path)
     assert recording.finished
     assert printed.startswith(f"{SCENE_NAME} on simulated: ") and f"\n  {recording.rows} ticks at 1600 Hz" in printed
@@ -58,9 +58,9 @@ def test_the_summary_after_a_signal_is_whole_and_a_reader_that_does_not_read_del
     path = tmp_path / "run.parquet"
     process = running(path, "--json")
     process.send_signal(signal.SIGINT)
-    told = json.loads(process.communicate(timeout=PATIENCE_S)[0])
+    result = json.loads(process.communicate(timeout=PATIENCE_S)[0])
     assert process.returncode == 128 + signal.SIGINT
-    assert told["ticks"] == told["recording"]["rows"] > 0 and told["recording"]["finished"]
+    assert result["ticks"] == result["recording"]["rows"] > 0 and result["recording"]["finished"]
 
     read, write = os.pipe()
     os.set_blocking(write, False)
@@ -123,9 +123,9 @@ def test_a_recording_that_lost_ticks_fails_the_command_and_is_in_its_summary(tmp
     command = [*RUN, "--record", str(tmp_path / "run.parquet"), "--duration", "2", "--json"]
     done = subprocess.run(command, text=True, capture_output=True, timeout=PATIENCE_S, preexec_fn=full_disk)
     assert done.returncode == 1
-    told = json.loads(done.stdout)["recording"]
-    assert told["lost"] > 0 and not told["finished"] and told["trouble"]
-    assert f"{told['lost']} lost" in done.stderr
+    result = json.loads(done.stdout)["recording"]
+    assert result["lost"] > 0 and not result["finished"] and result["trouble"]
+    assert f"{result['lost']} lost" in done.stderr
 
 
 def once(device):
@@ -134,33 +134,33 @@ def once(device):
 
 
 def test_the_driver_is_asked_what_is_wrong_only_after_the_stop(monkeypatch):
-    told, asked = threading.Event(), []
+    reported, asked = threading.Event(), []
     device = FedDevice(rate=1600, info=DeviceInfo(model="a stylus"))
 
     class LateStop(Supervisor):
         """Stops only after the run's thread has reported the fault."""
 
         def __init__(self, signals, begin, over, end):
-            super().__init__(signals, begin, over, lambda: told.wait(PATIENCE_S) and end())
+            super().__init__(signals, begin, over, lambda: reported.wait(PATIENCE_S) and end())
 
     def add_trouble(summary, device, thumb=None):
-        asked.append(told.is_set())
+        asked.append(reported.is_set())
         summary.fault += ": the cable is out"
 
     monkeypatch.setattr("punctura.live.session.Supervisor", LateStop)
     monkeypatch.setattr("punctura.live.RunSummary.add_trouble", add_trouble)
-    said = []
+    faults = []
 
     def watch(summary):
         once(device)(summary)
-        said.append(summary.fault)
+        faults.append(summary.fault)
         if summary.fault:
-            told.set()
+            reported.set()
 
     run_live(device, SCENE, watch=watch)
-    first = next(fault for fault in said if fault)
+    first = next(fault for fault in faults if fault)
     assert first.endswith("switch it off") and asked and all(asked)
-    assert said[-1].endswith("switch it off: the cable is out")
+    assert faults[-1].endswith("switch it off: the cable is out")
 
 
 def test_what_the_driver_says_later_is_told_after_the_fault(capsys):

@@ -147,18 +147,18 @@ def test_a_live_run_goes_on_beside_the_thread_that_feeds():
 
 
 def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given():
-    device, said = FedDevice(1600), []
+    device, reports = FedDevice(1600), []
 
     def feed():
-        said.extend(device.make_realtime(processor=1 << 20))
+        reports.extend(device.make_realtime(processor=1 << 20))
         fed_forces(device, PATH[:10])
 
     feeder = threading.Thread(target=feed)
     feeder.start()
     feeder.join()
-    assert said and all("granted" in line for line in said)
-    assert any("processor 1048576: not granted" in line for line in said), "asked for one that is not there"
-    assert device.statements()[: len(said)] == said and "fed at" in device.statements()[-1]
+    assert reports and all("granted" in line for line in reports)
+    assert any("processor 1048576: not granted" in line for line in reports), "asked for one that is not there"
+    assert device.statements()[: len(reports)] == reports and "fed at" in device.statements()[-1]
 
 
 def test_a_feeder_that_has_not_asked_for_priority_is_reported():
@@ -201,11 +201,11 @@ def test_waiting_for_a_period_lets_other_threads_run():
 
 
 def test_any_thread_may_ask_for_priority():
-    said = []
-    asking = threading.Thread(target=lambda: said.extend(make_realtime(priority=10)))
+    reports = []
+    asking = threading.Thread(target=lambda: reports.extend(make_realtime(priority=10)))
     asking.start()
     asking.join()
-    assert said and all("granted" in line for line in said)
+    assert reports and all("granted" in line for line in reports)
 
 
 @pytest.mark.parametrize("made", [FedDevice, Pacer])

@@ -63,8 +63,8 @@ def test_what_a_file_leaves_out_is_what_the_device_has_by_default(tmp_path):
 def test_all_that_is_wrong_is_told_at_once_by_the_files_own_names(tmp_path):
     with pytest.raises(pn.ConfigurationError) as error:
         limits_of(tmp_path, "max_force_N = -1\nstale_ms = 0\nwarm_motor = 1.0\n")
-    told = {p.path: p.value for p in error.value.problems}
-    assert told["max_force_N"] == -1 and told["stale_ms"] == 0
+    wrong = {p.path: p.value for p in error.value.problems}
+    assert wrong["max_force_N"] == -1 and wrong["stale_ms"] == 0
     with pytest.raises(pn.ConfigurationError) as error:
         limits_of(tmp_path, 'max_force = 1\nramp_time_s = "long"\ndead_man_buttons = [0]\nwarm_motor = true\n')
     assert [p.path for p in error.value.problems] == ["max_force", "ramp_time_s", "dead_man_buttons", "warm_motor"]
@@ -122,14 +122,14 @@ def test_the_command_line_bounds_the_force(punctura, tmp_path):
         "--limits",
         str(path),
     )
-    said_strongest = {}
+    peaks = {}
     for name, more in {"file": (), "option": ("--max-force-N", "0.4")}.items():
         done = punctura(*run, *more)
         assert done.status == 0, done.stderr
-        said = json.loads(done.stdout)
-        said_strongest[name] = said["felt_peak_N"]
-        assert said["limited_ticks"] > 0
-    assert said_strongest == {"file": 0.6, "option": 0.4}
+        result = json.loads(done.stdout)
+        peaks[name] = result["felt_peak_N"]
+        assert result["limited_ticks"] > 0
+    assert peaks == {"file": 0.6, "option": 0.4}
     assert ", at most 0.4 N, 0.88 N rms in any 10 s; " in done.stderr
 
 
@@ -166,11 +166,11 @@ def test_the_long_run_limit_cannot_be_stretched_until_it_limits_nothing(tmp_path
 def test_a_longer_deadline_than_the_budget_has_room_for_is_told(tmp_path):
     longer, usual = limits_of(tmp_path, "deadline_ms = 50"), limits_of(tmp_path, "deadline_ms = 20")
     mine = FedDevice(rate=1600, info=DeviceInfo(model="a stylus", max_force=1.0))
-    told = [limits.notes(ServoLoop(mine, SCENE, limits.gate_on(mine), limits.force)) for limits in (longer, usual)]
-    assert ["deadline_ms = 50 lets the device hold" in note for note in told[0]] == [True] and told[1] == []
+    notes = [limits.notes(ServoLoop(mine, SCENE, limits.gate_on(mine), limits.force)) for limits in (longer, usual)]
+    assert ["deadline_ms = 50 lets the device hold" in note for note in notes[0]] == [True] and notes[1] == []
     simulated = SimulatedDevice(Target([0, 5e-3, 0]))
     loop = ServoLoop(simulated, SCENE, longer.gate_on(simulated), longer.force)
-    assert longer.notes(loop) == [] and longer.notes(loop, ThumbLoop(mine)) == told[0]
+    assert longer.notes(loop) == [] and longer.notes(loop, ThumbLoop(mine)) == notes[0]
 
 
 def test_a_run_without_any_force_says_why(punctura, tmp_path):

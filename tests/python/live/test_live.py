@@ -201,9 +201,9 @@ def test_a_signal_ends_the_run_with_the_force_off(name):
     strong = "at most 3.3 N, 0.88 N rms in any 10 s"
     assert process.stderr.readline() == f"punctura: Venipuncture on PHANTOM Omni, simulated, {strong}; Ctrl-C ends it\n"
     process.send_signal(getattr(signal, name))
-    _, said = process.communicate(timeout=PATIENCE_S)
+    _, report = process.communicate(timeout=PATIENCE_S)
     last = f"punctura: {'interrupted' if name == 'SIGINT' else f'ended by {name}'}; the force is off\n"
-    assert said.endswith(last) and "Traceback" not in said
+    assert report.endswith(last) and "Traceback" not in report
     assert process.returncode == 128 + getattr(signal, name)
 
 

@@ -61,8 +61,8 @@ def test_the_package_of_the_docs_is_listed_and_runs(of_the_docs):
     listed = json.loads(punctura(of_the_docs, "devices", "--json").stdout)
     assert listed[0] == {"backend": "mine", "state": "available", "detail": "", "devices": ["mine 1"]}
     assert {"simulated", "replay", "haply"} < {entry["backend"] for entry in listed}
-    said = summary_of_mine(of_the_docs, seconds="2")
-    assert "mine" in said["device"] and said["ticks"] > 50 and said["felt_peak_N"] > 0.1
+    summary = summary_of_mine(of_the_docs, seconds="2")
+    assert "mine" in summary["device"] and summary["ticks"] > 50 and summary["felt_peak_N"] > 0.1
 
 
 AT_THE_END = """

@@ -55,12 +55,12 @@ def test_a_scene_that_a_computer_may_not_keep_up_with_is_reported(tmp_path):
     assert room_note(ServoLoop(device_for(SCENE, 1), SCENE)) == ""
     scene = many()
     summary = run_live(device_for(scene, 100), scene)
-    (told,) = [text for text in summary.statements if "64 membranes at 100000 Hz" in text]
-    assert "Use fewer membranes or a lower rate" in told
+    (note,) = [text for text in summary.statements if "64 membranes at 100000 Hz" in text]
+    assert "Use fewer membranes or a lower rate" in note
     loop = ServoLoop(device_for(scene, 100), scene)
     with Recorder(loop, tmp_path / "run.parquet"):
         pass
-    assert told in open_recording(tmp_path / "run.parquet").notes
+    assert note in open_recording(tmp_path / "run.parquet").notes
 
 
 @pytest.mark.parametrize("as_json", [False, True])
@@ -69,5 +69,5 @@ def test_the_command_line_says_it_before_the_run_and_in_the_summary(punctura, tm
     run = ["run", tmp_path / "many.toml", "--headless", "--device", "simulated", "--duration", "0.1"]
     done = punctura(*run, *(["--json"] if as_json else []))
     assert "punctura: note: 64 membranes at 100000 Hz" in done.stderr
-    said = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
-    assert "64 membranes at 100000 Hz produce a lot of data" in said
+    listed = "\n".join(json.loads(done.stdout)["statements"]) if as_json else done.stdout
+    assert "64 membranes at 100000 Hz produce a lot of data" in listed

@@ -167,8 +167,8 @@ def test_two_simulated_devices_make_one_recording_that_replays_with_the_same_bit
     more = ["--second-device", "simulated", "--duration", "3", "--json", "--record", str(path)]
     done = subprocess.run([*command, *more], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["second_device"] == "simulated: PHANTOM Omni, simulated" and told["thumb_peak_N"] > 0
+    result = json.loads(done.stdout)
+    assert result["second_device"] == "simulated: PHANTOM Omni, simulated" and result["thumb_peak_N"] > 0
     recording = open_recording(path)
     assert recording.info.header.second_device.device.backend == "simulated"
     assert recording.info.header.second_device.limits["max_force"] == 3.3
@@ -230,12 +230,12 @@ def test_the_studio_opens_the_second_device_for_each_run():
 
 
 def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
-    thumb, told = Library("the thumb's", (0.0, 0.0, 0.0)), []
+    thumb, result = Library("the thumb's", (0.0, 0.0, 0.0)), []
     monkeypatch.setattr("punctura.live.second.open_for", lambda *_: thumb.device)
     loaded = from_name("epidural")
     bench = Bench(Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED), second=SecondDevice("mine")), loaded.scene)
     run = Run(0, bench, loaded)
-    pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, send=told.append))
+    pump = Pump(run, types.SimpleNamespace(frame=lambda _: None, send=result.append))
     run.start()
     wait_until(lambda: run.thumb.ticks > 10)
     thumb.position = (math.nan, 0.0, 0.0)
@@ -243,6 +243,6 @@ def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     run.stop()
     thumb.die()
     pump.turn()
-    (fault,) = [message for message in told if message.kind == "fault"]
+    (fault,) = [message for message in result if message.kind == "fault"]
     assert fault.fault == "thumb" and "under the thumb has a fault. The device reported a number" in fault.reason
     assert "cable" in fault.remedy

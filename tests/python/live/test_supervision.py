@@ -155,10 +155,10 @@ def test_a_result_that_was_asked_for_is_whole_however_late_it_is_read():
         [*RUN, "--duration", "0.2", "--json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0
     )
     os.set_blocking(process.stdout.fileno(), True)
-    said = b""
+    printed = b""
     while piece := os.read(process.stdout.fileno(), 7):
-        said += piece
-    assert process.wait(PATIENCE_S) == 0 and json.loads(said)["ticks"] > 0
+        printed += piece
+    assert process.wait(PATIENCE_S) == 0 and json.loads(printed)["ticks"] > 0
 
 
 def test_a_termination_ends_a_command_whose_result_nobody_reads(tmp_path):

@@ -89,9 +89,9 @@ def test_a_wrong_argument_is_named(make, says):
     ],
 )
 def test_a_number_in_another_unit_gives_a_warning_that_names_the_unit(make, says):
-    with pytest.warns(UserWarning) as told:
+    with pytest.warns(UserWarning) as warned:
         made = make()
-    assert says in str(told[0].message)
+    assert says in str(warned[0].message)
     assert made is not None
 
 

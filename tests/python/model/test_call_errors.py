@@ -82,9 +82,9 @@ def functions():
 
 def test_every_function_explains_a_wrong_number_of_arguments():
     nothing = object()
-    told = [f for f in functions() if not getattr(f, "__name__", "").startswith("__")]
-    assert len(told) > 300
-    for function in told:
+    named = [f for f in functions() if not getattr(f, "__name__", "").startswith("__")]
+    assert len(named) > 300
+    for function in named:
         try:
             function(*[nothing] * 40)
         except TypeError as error:

@@ -48,7 +48,7 @@ def test_faster_poses_than_ticks_leave_the_force_between_two_ticks():
     assert np.array_equal(forces[1::3], forces[:-1:3])
 
 
-def told(times, points=None, **options):
+def moved(times, points=None, **options):
     """The needle after poses at these times, its forces (n, 3), and what it says."""
     notices = []
     needle = PosedNeedle(SCENE, notice=notices.append, **options)
@@ -61,7 +61,7 @@ def told(times, points=None, **options):
 def test_a_gap_and_a_step_of_the_clock_start_anew_and_are_told(step):
     times = np.arange(800) / RATE
     times[500:] += step
-    needle, forces, notices = told(times)
+    needle, forces, notices = moved(times)
     assert forces[499].any() and not forces[500].any() and needle.starts == 2 and len(notices) == 1
     place = f"at ({', '.join(f'{x * 1e3:.2f}' for x in positions(800)[500])}) mm"
     assert f"comes {times[500] - times[499]:+.3g} s after the last one" in notices[0] and place in notices[0]
@@ -78,9 +78,9 @@ def test_a_pose_that_comes_after_a_later_one_is_dropped_and_counted():
     swapped[[20, 21]] = swapped[[21, 20]]
     shifted[late] = shifted[np.array(late) - 1] - 1e-6
     for changed, dropped in ((swapped, [21]), (shifted, late)):
-        needle, forces, notices = told(changed)
+        needle, forces, notices = moved(changed)
         kept = np.delete(np.arange(len(times)), dropped)
-        _, expected, nothing = told(changed[kept], positions(len(times))[kept])
+        _, expected, nothing = moved(changed[kept], positions(len(times))[kept])
         assert np.array_equal(forces[kept], expected) and np.array_equal(forces[dropped], forces[np.array(dropped) - 1])
         assert (needle.dropped, needle.starts) == (len(dropped), 1)
         assert len(notices) == 1 and "is dropped; 1 of these so far" in notices[0] and not nothing
@@ -88,7 +88,7 @@ def test_a_pose_that_comes_after_a_later_one_is_dropped_and_counted():
 
 @pytest.mark.parametrize(("factor", "unit"), [(1e3, "ms, so multiply them by 0.001"), (1e6, "us"), (1e9, "ns")])
 def test_times_in_another_unit_are_told_once(factor, unit):
-    _, forces, notices = told(np.arange(0, 0.5, 0.01) * factor)
+    _, forces, notices = moved(np.arange(0, 0.5, 0.01) * factor)
     assert not forces.any() and len(notices) == 2
     assert f"no force. Their times must be in seconds: they seem to be in {unit}" in notices[1]
 
@@ -102,10 +102,10 @@ def test_a_time_that_is_in_no_seconds_is_refused_and_its_unit_is_not_guessed(tim
 
 
 def test_a_time_that_stands_still_is_told():
-    needle, _, notices = told(np.full(300, 7.0))
+    needle, _, notices = moved(np.full(300, 7.0))
     assert len(notices) == 1 and "100 poses have the time 7.000000 s: the force stays" in notices[0]
     assert needle.starts == 1
-    assert not told(np.repeat(np.arange(0, 0.5, 0.01), 2))[2]
+    assert not moved(np.repeat(np.arange(0, 0.5, 0.01), 2))[2]
 
 
 @pytest.mark.parametrize("late", [0.4, 50.0])
@@ -113,13 +113,13 @@ def test_a_held_pose_keeps_the_insertion(late):
     times, still = np.arange(0, 0.5, 0.01), 30
     paused = times.copy()
     paused[still:] += late
-    needle, forces, notices = told(paused, hold_last_pose=True)
+    needle, forces, notices = moved(paused, hold_last_pose=True)
     # As a sender that goes on at the last pose, and then moves within the longest gap.
     rests = np.arange(times[still - 1] + 0.01, paused[still] - 0.25, 0.01)
     filled = np.concatenate([times[:still], rests, [paused[still] - 0.25], paused[still:]])
     p = positions(len(times))
     points = np.concatenate([p[:still], np.repeat(p[still - 1 : still], len(rests) + 1, axis=0), p[still:]])
-    _, expected, _ = told(filled, points, longest_gap=0.26)
+    _, expected, _ = moved(filled, points, longest_gap=0.26)
     assert np.allclose(forces[still:], expected[-(len(times) - still) :], atol=1e-9) and forces[still:].any()
     assert needle.starts == 1 and not notices
 
@@ -143,7 +143,7 @@ def test_hold_goes_on_by_itself_and_the_next_pose_may_be_a_little_older():
 def test_a_hold_that_ran_ahead_of_the_sender_does_not_freeze_the_force():
     """The sender's clock stands still while it is paused; the caller of hold() has a clock of its own."""
     p = positions(80)
-    needle, _, notices = told(0.01 * np.arange(40), p[:40])
+    needle, _, notices = moved(0.01 * np.arange(40), p[:40])
     needle.hold(300.0)
     forces = np.array([needle.move(0.01 * k, p[k], AXIS) for k in range(40, 80)])
     assert len(np.unique(forces[:, 1])) > 30 and needle.starts == 1 and not notices

@@ -95,7 +95,7 @@ def plain(values: Any) -> dict[str, bytes]:
     return {name: np.asarray(values[name]).tobytes() for name in names}
 
 
-def told(model: Any) -> dict[str, bytes]:
+def outcome(model: Any) -> dict[str, bytes]:
     names = ("force", "offset", "position", "depth", "axial_force", "direction", "bounds", "phase", "tip", "depths")
     return {name: repr(getattr(model, name)).encode() for name in names if hasattr(type(model), name)}
 
@@ -122,15 +122,15 @@ def test_each_copy_continues_with_the_same_bits(name: str, at: int) -> None:
         restored(model, make()),
         restored(model, used),
     ]
-    state, tick = model.state, told(model)
+    state, tick = model.state, outcome(model)
     wanted = plain(run(model, slice(at, None)))
     assert model.state != state
     assert any(map(any, wanted.values())), "the motion meets the membrane"
     for other in others:
         assert type(other) is type(model)
-        assert (other.state, told(other)) == (state, tick)
+        assert (other.state, outcome(other)) == (state, tick)
         assert plain(run(other, slice(at, None))) == wanted
-        assert (other.state, told(other)) == (model.state, told(model))
+        assert (other.state, outcome(other)) == (model.state, outcome(model))
 
 
 @pytest.mark.parametrize("name", MADE)

@@ -79,16 +79,16 @@ def test_another_thread_reads_nothing_while_run_is_at_work(make, names):
 @pytest.mark.parametrize("make", [case[0] for case in CASES])
 def test_a_progress_function_that_uses_its_own_object_is_told_so(make):
     made, run = make()
-    told = []
+    named = []
 
     def progress(share):
         for use in (copy.copy, lambda _: run(None)):
             with pytest.raises(RuntimeError, match="a progress function or a signal handler that it called") as error:
                 use(made)
-            told.append("thread" in str(error.value))
+            named.append("thread" in str(error.value))
 
     run(progress)
-    assert told and not any(told)
+    assert named and not any(named)
 
 
 def test_a_repr_hides_no_other_error():

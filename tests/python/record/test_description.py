@@ -127,8 +127,8 @@ def test_the_command_line_says_so_in_one_sentence(tool, recorded, tmp_path, verb
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", tool.changed(data, ("summary", "lost"), "many"))
     file = "replay:bad.parquet" if verb[0] == "run" else "bad.parquet"
     done = punctura(*([*verb, file] if verb[0] == "run" else [verb[0], file, *verb[1:]]))
-    said = " ".join(done.stderr.replace("│", " ").split())
-    assert done.status in (1, 2) and "summary.lost = 'many': input should be a valid integer" in said
+    report = " ".join(done.stderr.replace("│", " ").split())
+    assert done.status in (1, 2) and "summary.lost = 'many': input should be a valid integer" in report
 
 
 def test_a_fault_that_this_version_does_not_know_is_counted_by_its_number(start, tmp_path):

@@ -79,9 +79,9 @@ def test_the_command_tells_what_it_wrote(killed, tmp_path, punctura):
 
 
 def test_places_that_cannot_be_are_told_all_at_once(killed, tmp_path):
-    with pytest.raises(ConfigurationError) as told:
+    with pytest.raises(ConfigurationError) as error:
         export(killed, tmp_path / "nowhere" / "out.txt")
-    assert len(told.value.problems) == 2
+    assert len(error.value.problems) == 2
     with pytest.raises(ConfigurationError, match="is the recording itself"):
         shutil.copy(killed, tmp_path / "same.parquet")
         export(tmp_path / "same.parquet", tmp_path / "same.parquet")

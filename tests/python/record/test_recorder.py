@@ -118,9 +118,9 @@ def test_a_fault_is_in_the_file_with_its_tick(start):
     run = start(gate=GateLimits(max_speed=0.032)).record()
     recording = open_recording(run.path)
     fault = recording.column("fault")
-    (told,) = recording.faults
-    assert told["fault"] == "position_jump" and told["tick"] == np.flatnonzero(fault)[0]
-    assert "calibrate" in told["meaning"]
+    (recorded,) = recording.faults
+    assert recorded["fault"] == "position_jump" and recorded["tick"] == np.flatnonzero(fault)[0]
+    assert "calibrate" in recorded["meaning"]
 
 
 def test_a_ring_that_overflows_is_told_of_tick_by_tick(start):

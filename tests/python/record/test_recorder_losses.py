@@ -13,7 +13,7 @@ from punctura.record import Recorder, RecordingError, finish, open_recording
 from punctura.record.stream import Decoder, Encoder
 
 
-def all_told(run, status):
+def all_counted(run, status):
     """Rows plus losses equal the number of ticks, in the status and in the file."""
     made = run.loop.report()["ticks"]
     assert status.rows + status.lost == made and f"{status.lost} of {made} ticks are lost" in status.notes[-1]
@@ -57,7 +57,7 @@ def test_an_error_in_the_reading_thread_costs_ticks_that_are_counted(start, monk
     run.wait(lambda: run.recorder.status().rows > 0 and failing.count >= 6)
     words = "not enough memory" if isinstance(error, MemoryError) else "please report it"
     assert words in run.recorder.status().trouble
-    status = all_told(run, run.recorder.finish())
+    status = all_counted(run, run.recorder.finish())
     assert status.finished and 0 < status.lost < 4801 and any(words in note for note in status.notes)
 
 
@@ -91,7 +91,7 @@ def test_ticks_that_never_leave_the_ring_are_counted(start):
     run.recorder._listener.read = fail
     run.go()
     run.wait(lambda: "memory" in run.recorder.status().trouble)
-    status = all_told(run, run.recorder.finish())
+    status = all_counted(run, run.recorder.finish())
     assert status.lost == status.lost_otherwise == 3000
 
 
@@ -143,7 +143,7 @@ def test_a_file_that_is_removed_or_changed_is_told_while_it_runs(begun, meddle, 
     assert run.recorder.status().lost == 2000 - run.recorder.status().rows > 0
     status = run.recorder.finish()
     assert words in status.trouble and not status.finished and not run.path.exists()
-    all_told(run, status)
+    all_counted(run, status)
     if meddle is cut:
         assert 0 < status.rows < 2000 and f"readable up to tick {status.rows - 1}" in status.trouble
     else:
@@ -163,7 +163,7 @@ def test_a_file_that_is_removed_after_the_last_tick_is_not_called_whole(start, m
     run.go()
     run.wait(lambda: run.recorder.status().rows == 2000)
     meddle(run)
-    status = all_told(run, run.recorder.finish())
+    status = all_counted(run, run.recorder.finish())
     assert words in status.trouble and not status.finished and status.lost > 0
 
 

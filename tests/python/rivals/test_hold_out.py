@@ -34,11 +34,11 @@ def made(surface=5e-3, seed=1, times=1, noise=NOISE):
 
 def test_the_second_insertion_of_the_models_own_trace_is_predicted_to_the_noise_and_rivals_are_worse():
     twice = made(times=2)
-    told = {one.name: one for one in second_insertion(twice, NEEDLE, 1)}
-    assert told["k06"].rmse == pytest.approx(NOISE, rel=0.15)
-    assert told["exponential"].rmse > told["k06"].rmse < told["sign_of_velocity"].rmse
+    predicted = {one.name: one for one in second_insertion(twice, NEEDLE, 1)}
+    assert predicted["k06"].rmse == pytest.approx(NOISE, rel=0.15)
+    assert predicted["exponential"].rmse > predicted["k06"].rmse < predicted["sign_of_velocity"].rmse
     peak = float(np.abs(twice.force[twice.strokes == 1]).max())
-    assert told["k06"].rmse_share == pytest.approx(told["k06"].rmse / peak) and REPEAT in told
+    assert predicted["k06"].rmse_share == pytest.approx(predicted["k06"].rmse / peak) and REPEAT in predicted
     errors = [one.rmse for one in second_insertion(twice, NEEDLE, 1)]
     assert errors == sorted(errors)
 
@@ -46,9 +46,9 @@ def test_the_second_insertion_of_the_models_own_trace_is_predicted_to_the_noise_
 def test_what_changes_in_the_second_insertion_is_a_prediction_error_and_not_fitted():
     twice = made(times=2)
     weaker = Trace(twice.depth, np.where(twice.strokes == 1, 0.6, 1.0) * twice.force, twice.time)
-    told = {one.name: one for one in second_insertion(weaker, NEEDLE, 1)}
+    predicted = {one.name: one for one in second_insertion(weaker, NEEDLE, 1)}
     missing = 0.4 * float(np.sqrt(np.mean(twice.force[twice.strokes == 1] ** 2)))
-    assert told["k06"].rmse == pytest.approx(missing, rel=0.1)
+    assert predicted["k06"].rmse == pytest.approx(missing, rel=0.1)
 
 
 def test_rivals_get_the_depth_without_its_noise_as_k06_does():
@@ -102,10 +102,10 @@ def test_each_trace_of_a_folder_is_predicted_at_its_own_contact_without_its_own_
     twice_as_strong = dict(known)
     strong = fitted(Trace(traces["c"].depth, 2 * traces["c"].force, traces["c"].time), NEEDLE, 1, lambda _: None)
     twice_as_strong["c"] = strong
-    told = {one.trace: one for one in another_trace(twice_as_strong) if one.name == "k06"}
-    assert told["c"].rmse > 0.3 * np.sqrt(np.mean(strong.trace.force**2))  # its own fit is not used
-    told_means = {one["name"]: one for one in means(found)}
-    assert told_means["k06"]["rmse_N"] == pytest.approx(np.mean([one.rmse for one in k06.values()]))
+    predicted = {one.trace: one for one in another_trace(twice_as_strong) if one.name == "k06"}
+    assert predicted["c"].rmse > 0.3 * np.sqrt(np.mean(strong.trace.force**2))  # its own fit is not used
+    mean_of = {one["name"]: one for one in means(found)}
+    assert mean_of["k06"]["rmse_N"] == pytest.approx(np.mean([one.rmse for one in k06.values()]))
     with pytest.raises(TraceError, match="at least 2 traces"):
         another_trace({"a": known["a"]})
 
@@ -138,11 +138,11 @@ def test_a_rival_that_explains_the_trace_better_is_named_and_only_then(monkeypat
     """The second trace is made by a rival: an exponential rise, and a friction that grows with the depth."""
     monkeypatch.setattr("punctura.rivals.comparison.kinds", hold_out.kinds)
     plain = made()
-    told = better_in_words(identify(plain, NEEDLE, 1))
-    assert told.startswith("No rival does better: ") and told.endswith("(punctura rivals).")
+    sentence = better_in_words(identify(plain, NEEDLE, 1))
+    assert sentence.startswith("No rival does better: ") and sentence.endswith("(punctura rivals).")
     numbers = {"scale": 0.05, "growth": 900.0, "friction": 0.1, "friction_slope": 40.0, "puncture": 3e-3}
     path = path_of(plain, segment(plain))
     noise = NOISE * np.random.default_rng(4).normal(size=len(plain))
     force = Layer(5e-3, Rival("exponential", numbers)).resistance(path) + noise
-    told = better_in_words(identify(Trace(plain.depth, force, plain.time), NEEDLE, 1))
-    assert told.startswith("Another model does better: exponential")
+    sentence = better_in_words(identify(Trace(plain.depth, force, plain.time), NEEDLE, 1))
+    assert sentence.startswith("Another model does better: exponential")

@@ -81,11 +81,11 @@ def test_on_the_first_rise_a_curved_grip_follows_an_exponential_better_than_a_st
         "straight": k06_on(stretch, needle, contact, False),
         "exponential": rival_on(stretch, kinds()["exponential"]),
     }
-    told = compared(fits, stretch)
-    assert told["curved"].rmse_share < 0.3 * told["straight"].rmse_share
-    assert told["curved"].aic < told["straight"].aic - 20
-    assert told["exponential"].parameters == 3 and told["curved"].parameters <= 5
-    assert told["exponential"].rmse_share < 0.01
+    record = compared(fits, stretch)
+    assert record["curved"].rmse_share < 0.3 * record["straight"].rmse_share
+    assert record["curved"].aic < record["straight"].aic - 20
+    assert record["exponential"].parameters == 3 and record["curved"].parameters <= 5
+    assert record["exponential"].rmse_share < 0.01
 
 
 def test_two_pops_get_two_layers():
@@ -146,9 +146,9 @@ def test_the_command_line_compares_and_feels(punctura, tmp_path):
     np.savetxt(csv, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="")
     out = tmp_path / "fits"
     models = ["--models", "exponential,dahl", "--json", "--plot", tmp_path / "plot.svg"]
-    told = json.loads(punctura("rivals", csv, *models, "--out", out).stdout)
-    assert [model["name"] for model in told["models"]] == ["exponential", "dahl"]
-    assert told["models"][0]["rmse_N"] == pytest.approx(NOISE, rel=0.15)
+    record = json.loads(punctura("rivals", csv, *models, "--out", out).stdout)
+    assert [model["name"] for model in record["models"]] == ["exponential", "dahl"]
+    assert record["models"][0]["rmse_N"] == pytest.approx(NOISE, rel=0.15)
     drawing = (tmp_path / "plot.svg").read_text()
     assert drawing.startswith("<?xml") and "<dc:date>" not in drawing
 

@@ -70,9 +70,9 @@ def test_a_rival_that_this_version_does_not_know_is_told(tmp_path):
     felt(tmp_path / "run.parquet", [Rival("dahl")], ticks=10)
     info = open_recording(tmp_path / "run.parquet").info
     for wrong in ({"rival": "newton", "numbers": {}}, {"rival": "dahl", "numbers": {"friction": -1.0}}):
-        said = type(info.header).model_validate(info.data | {"rivals": [wrong]})
+        checked = type(info.header).model_validate(info.data | {"rivals": [wrong]})
         with pytest.raises(RecordingError, match="rival in the run description is invalid"):
-            _ = RecordingInfo(info.data, said, tmp_path / "run.parquet").rivals
+            _ = RecordingInfo(info.data, checked, tmp_path / "run.parquet").rivals
 
 
 def test_rivals_are_one_or_one_for_each_membrane():

@@ -74,14 +74,14 @@ def test_a_key_in_quotes_is_told_in_quotes_and_is_nobody_elses_path(write, key):
 
 def test_thousands_of_unknown_keys_are_all_told_in_the_order_of_the_file(write):
     keys = [f"key{i}" for i in range(4000)]
-    told = problems(write(("[coupling]", "\n".join(f"{key} = 1" for key in keys) + "\n[coupling]")))
-    assert [line.split(" = ")[0] for line in told] == [f"needle.{key}" for key in keys]
+    report = problems(write(("[coupling]", "\n".join(f"{key} = 1" for key in keys) + "\n[coupling]")))
+    assert [line.split(" = ")[0] for line in report] == [f"needle.{key}" for key in keys]
 
 
 def test_of_ten_thousand_membranes_it_is_told_that_they_are_too_many(write):
-    told = problems(write(text=write().read_text() + "[[membrane]]\n" * 10_000))
-    assert told[0] == "membrane: there may be at most 64 membranes"
-    assert len(told) < 1000
+    report = problems(write(text=write().read_text() + "[[membrane]]\n" * 10_000))
+    assert report[0] == "membrane: there may be at most 64 membranes"
+    assert len(report) < 1000
 
 
 def test_a_file_larger_than_256_kib_is_not_read(write):

@@ -12,7 +12,7 @@ from punctura.scene.check import UnusualWarning
 from punctura.studio.loaded import from_name, from_tables
 
 
-def told(path):
+def notes_of(path):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         load_scene(path)
@@ -35,8 +35,8 @@ def told(path):
 def test_the_warning_names_the_line_and_what_to_write(tmp_path, sound_text, sound, given, line, advice):
     path = tmp_path / "veins.toml"
     path.write_text(sound_text.replace(sound, given, 1))
-    [said] = told(path)
-    assert said.startswith(f"{path}, {line} ") and said.endswith(f"{given} is unusual. {advice}")
+    [note] = notes_of(path)
+    assert note.startswith(f"{path}, {line} ") and note.endswith(f"{given} is unusual. {advice}")
 
 
 @pytest.mark.parametrize(
@@ -59,13 +59,13 @@ def test_the_numbers_of_a_syringe_are_told_as_well(tmp_path, sound, given, advic
     text = (Path(punctura.__file__).parent / "ready_scenes/epidural.toml").read_text()
     assert sound in text
     path.write_text(text.replace(sound, given, 1))
-    [said] = told(path)
-    assert f": [syringe] {given.split()[0]}" in said and said.endswith(f"is unusual. {advice}")
+    [note] = notes_of(path)
+    assert f": [syringe] {given.split()[0]}" in note and note.endswith(f"is unusual. {advice}")
 
 
 def test_sound_scenes_give_no_warning(tmp_path, sound_text):
     (tmp_path / "a.toml").write_text(sound_text)
-    assert [told(scene) for scene in (tmp_path / "a.toml", *scene_names())] == [[]] * (1 + len(scene_names()))
+    assert [notes_of(scene) for scene in (tmp_path / "a.toml", *scene_names())] == [[]] * (1 + len(scene_names()))
 
 
 def test_the_command_line_tells_it_as_a_sentence(tmp_path, sound_text):

@@ -80,6 +80,6 @@ def test_depths_in_millimetres_give_a_warning_and_those_in_metres_none():
     depths = np.linspace(-5e-3, 11e-3, 500)
     simulate(SCENE, depths)
     simulate(SCENE, depths[:0])
-    with pytest.warns(UserWarning, match=r"11 m deep into 'first membrane'.*in millimetres, divide") as told:
+    with pytest.warns(UserWarning, match=r"11 m deep into 'first membrane'.*in millimetres, divide") as warned:
         ticks = simulate(SCENE, 1e3 * depths)
-    assert len(ticks) == 500 and told[0].filename == __file__
+    assert len(ticks) == 500 and warned[0].filename == __file__

@@ -151,7 +151,7 @@ def test_what_is_no_scheduler_is_told_within_a_time_limit(tmp_path: Path, monkey
     async def foreign(*_: object, **__: object) -> None:
         raise MemoryError("Unable to allocate 3.07 EiB")
 
-    said = {silent: r"accepts there, and says nothing within 0\.01 s", foreign: "seems to answer there: MemoryError"}
-    for connect, words in said.items():
+    texts = {silent: r"accepts there, and says nothing within 0\.01 s", foreign: "seems to answer there: MemoryError"}
+    for connect, words in texts.items():
         with pytest.raises(StudyError, match=rf"tcp://here: no Dask scheduler answers \(.*{words}.*give the address"):
             on_cluster(tmp_path, monkeypatch, distributed_with(None, connect))

@@ -117,13 +117,13 @@ def test_a_killed_run_loses_no_row_and_doubles_none(tmp_path: Path) -> None:
 
 
 def test_the_first_chunk_tells_how_long_and_how_much_disk_the_others_take(tmp_path: Path) -> None:
-    told: list[Forecast] = []
+    reports: list[Forecast] = []
     shares: list[float] = []
     out = tmp_path / "out"
-    run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, on_forecast=told.append)
-    assert [one.trials for one in told] == [4]
-    assert told[0].seconds is not None and 0 < told[0].seconds < 60 and not told[0].is_worth_showing
-    assert 0.5 * (out / "trials.parquet").stat().st_size < told[0].bytes < told[0].free
+    run_study(load_plan(written(tmp_path, GRID)), out, progress=shares.append, on_forecast=reports.append)
+    assert [one.trials for one in reports] == [4]
+    assert reports[0].seconds is not None and 0 < reports[0].seconds < 60 and not reports[0].is_worth_showing
+    assert 0.5 * (out / "trials.parquet").stat().st_size < reports[0].bytes < reports[0].free
     assert shares == sorted(shares) and 0 < shares[0] < 0.1 and shares[-1] == 1
 
 
@@ -244,10 +244,10 @@ def test_the_command_writes_sobol_indices(tmp_path: Path, punctura) -> None:
     path = written(tmp_path, SOBOL)
     done = punctura("study", path, "--json", "--workers", "1")
     assert done.status == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["trials"] == 32
-    table = pq.read_table(told["table"])
+    reports = json.loads(done.stdout)
+    assert reports["trials"] == 32
+    table = pq.read_table(reports["table"])
     assert table.column_names == ["row", "membrane[0].friction", "membrane[0].stiffness", "seed", "peak", "drop[1]",
                                   "fault"]  # fmt: skip
     assert min(table["membrane[0].stiffness"].to_pylist()) >= 300
-    assert "| peak | membrane[0].stiffness |" in Path(told["report"]).read_text()
+    assert "| peak | membrane[0].stiffness |" in Path(reports["report"]).read_text()

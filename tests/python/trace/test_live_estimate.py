@@ -24,15 +24,15 @@ def test_one_pop_is_found_with_slope_plateau_and_place(stroke):
     way, force = stroke
     live = LiveEstimate()
     inwards = int(np.argmax(way >= 8.9e-3))
-    told = live.run(way[:inwards], force[:inwards], PERIOD)
+    estimates = live.run(way[:inwards], force[:inwards], PERIOD)
     assert live.punctures == 1
     assert live.phase == "behind"
-    (found,) = np.flatnonzero(told["punctured"])
+    (found,) = np.flatnonzero(estimates["punctured"])
     peak = int(np.argmax(force[:inwards]))
     assert 0 <= found - peak < 60  # K06's wall of 0.1 mm at 5 mm/s lets go within 20 ms
     value, error = live.plateau
     assert value == pytest.approx(0.41024, abs=4 * error + 2e-3)
-    assert told["slope"][peak - 300] == pytest.approx(117.57 * 400 / (117.57 + 400), rel=0.1)  # A_I and K
+    assert estimates["slope"][peak - 300] == pytest.approx(117.57 * 400 / (117.57 + 400), rel=0.1)  # A_I and K
     assert live.drop == pytest.approx(0.32, abs=0.03)
     live.run(way[inwards:], force[inwards:], PERIOD)
     assert live.punctures == 1  # neither the hold nor the withdrawal

@@ -26,24 +26,24 @@ def triangle(offset=0.0):
 
 @pytest.mark.parametrize("offset", [0.0, 0.05, -0.2])
 def test_the_numbers_of_a_trace_drawn_by_hand_whatever_the_zero_of_the_sensor(offset):
-    (told,) = numbers_of(triangle(offset))
-    assert told.zero_N == pytest.approx(offset, abs=1e-9)
-    assert told.contact_m == pytest.approx(2e-3, abs=0.1e-3)
-    assert (told.peak_N, told.peak_depth_m) == pytest.approx((1.0, 7e-3))
-    assert told.gradient_N_per_m == pytest.approx(200, rel=1e-3)
-    assert told.work_J == pytest.approx(0.5 * 5e-3 + 0.07e-3 + 4.9e-3 * 0.4, rel=1e-3)
-    assert told.work_out_J == pytest.approx(0.3 * 10e-3, rel=0.01)
-    assert told.final_N == pytest.approx(0.4) and told.withdrawal_N == pytest.approx(0.3)
-    assert told.speed_m_per_s == pytest.approx(1e-3)
-    (pop,) = told.pops
+    (result,) = numbers_of(triangle(offset))
+    assert result.zero_N == pytest.approx(offset, abs=1e-9)
+    assert result.contact_m == pytest.approx(2e-3, abs=0.1e-3)
+    assert (result.peak_N, result.peak_depth_m) == pytest.approx((1.0, 7e-3))
+    assert result.gradient_N_per_m == pytest.approx(200, rel=1e-3)
+    assert result.work_J == pytest.approx(0.5 * 5e-3 + 0.07e-3 + 4.9e-3 * 0.4, rel=1e-3)
+    assert result.work_out_J == pytest.approx(0.3 * 10e-3, rel=0.01)
+    assert result.final_N == pytest.approx(0.4) and result.withdrawal_N == pytest.approx(0.3)
+    assert result.speed_m_per_s == pytest.approx(1e-3)
+    (pop,) = result.pops
     assert (pop.depth_m, pop.peak_N, pop.drop_N) == pytest.approx((7e-3, 1.0, 0.6))
     assert pop.gradient_N_per_m == pytest.approx(200, rel=1e-3) and pop.width_m == pytest.approx(0.1e-3, rel=0.15)
 
 
 def test_the_speed_of_a_depth_in_encoder_steps_is_that_of_the_needle():
     made = triangle()
-    (told,) = numbers_of(replace(made, depth=np.round(made.depth / 0.055e-3) * 0.055e-3))
-    assert told.speed_m_per_s == pytest.approx(1e-3, rel=0.02)
+    (result,) = numbers_of(replace(made, depth=np.round(made.depth / 0.055e-3) * 0.055e-3))
+    assert result.speed_m_per_s == pytest.approx(1e-3, rel=0.02)
 
 
 def test_an_angle_changes_the_depth_below_the_surface_alone():
@@ -96,11 +96,11 @@ def test_a_folder_gives_one_table_and_its_spread_and_a_broken_file_stops_no_othe
     (folder / "broken.csv").write_text("time_s,depth_mm,force_N\n")
     table, parquet = tmp_path / "table.csv", tmp_path / "table.parquet"
     done = punctura("measure", folder, "--json", "--out", table)
-    told = json.loads(done.stdout)
-    assert done.status == 1 and list(told["failed"]) == ["broken.csv"]
+    result = json.loads(done.stdout)
+    assert done.status == 1 and list(result["failed"]) == ["broken.csv"]
     peaks = [numbers_of(one)[0].peak_N for one in made]
-    assert [row["peak_N"] for row in told["rows"]] == pytest.approx(peaks, rel=1e-5)
-    spreads = {one["name"]: one for one in told["folder"]}
+    assert [row["peak_N"] for row in result["rows"]] == pytest.approx(peaks, rel=1e-5)
+    spreads = {one["name"]: one for one in result["folder"]}
     assert spreads["peak_N"]["mean"] == pytest.approx(np.mean(peaks)) and spreads["peak_N"]["traces"] == 3
     assert spreads["peak_N"]["sd"] == pytest.approx(np.std(peaks, ddof=1), rel=1e-4) and "pop[0].drop_N" in spreads
     assert spreads["contact_m"]["least"] == pytest.approx(4e-3, abs=0.2e-3)
@@ -116,8 +116,12 @@ def test_traces_with_different_numbers_of_pops_share_one_table():
         {"trace": "a", "insertion": 0, "pops": 0},
         {"trace": "b", "insertion": 0, "pops": 1, "pop[0].drop_N": 0.2},
     )
-    told = {each["name"]: each for each in spread([one, two])}
-    assert told["pop[0].drop_N"]["traces"] == 1 and told["pop[0].drop_N"]["sd"] is None and told["pops"]["mean"] == 0.5
+    result = {each["name"]: each for each in spread([one, two])}
+    assert (
+        result["pop[0].drop_N"]["traces"] == 1
+        and result["pop[0].drop_N"]["sd"] is None
+        and result["pops"]["mean"] == 0.5
+    )
 
 
 def test_all_sheets_of_a_workbook_a_force_with_a_stated_speed_and_two_files(punctura, tmp_path):
@@ -129,8 +133,8 @@ def test_all_sheets_of_a_workbook_a_force_with_a_stated_speed_and_two_files(punc
         for row in zip(made.time[::5], 1e3 * made.depth[::5], made.force[::5], strict=True):
             sheet.append([float(value) for value in row])
     book.save(tmp_path / "book.xlsx")
-    told = json.loads(punctura("measure", tmp_path / "book.xlsx", "--json").stdout)
-    assert [row["trace"] for row in told["rows"]] == ["book.xlsx: Specimen 1", "book.xlsx: Specimen 2"]
+    result = json.loads(punctura("measure", tmp_path / "book.xlsx", "--json").stdout)
+    assert [row["trace"] for row in result["rows"]] == ["book.xlsx: Specimen 1", "book.xlsx: Specimen 2"]
     np.savetxt(tmp_path / "force.csv", np.column_stack([made.time, made.force]), delimiter=",", header="time_s,force_N",
                comments="")  # fmt: skip
     np.savetxt(tmp_path / "depth.csv", np.column_stack([made.time, 1e3 * made.depth]), delimiter=",",
@@ -155,5 +159,5 @@ def test_the_words_name_each_number_with_its_unit(punctura, tmp_path):
 def test_a_soft_layer_in_front_of_the_contact_does_not_move_the_zero():
     made = triangle()
     soft = np.where((NEEDLES_WAY > 0.8e-3) & (np.arange(len(NEEDLES_WAY)) < 1201), 0.05, 0.0)
-    (told,) = numbers_of(replace(made, force=made.force + soft))
-    assert told.zero_N == pytest.approx(0, abs=1e-9) and told.peak_N == pytest.approx(1.05)
+    (result,) = numbers_of(replace(made, force=made.force + soft))
+    assert result.zero_N == pytest.approx(0, abs=1e-9) and result.peak_N == pytest.approx(1.05)

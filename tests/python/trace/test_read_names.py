@@ -88,14 +88,14 @@ def test_a_unit_of_something_else_hides_no_name_and_is_not_read(tmp_path, name, 
 
 def test_all_that_is_missing_is_asked_at_once(tmp_path):
     (tmp_path / "a.csv").write_text(written("a,depth,force", mark=","))
-    with pytest.raises(TraceError) as told:
+    with pytest.raises(TraceError) as error:
         read_trace(tmp_path / "a.csv")
-    assert "--unit depth=UNIT" in str(told.value) and "--unit force=UNIT" in str(told.value)
+    assert "--unit depth=UNIT" in str(error.value) and "--unit force=UNIT" in str(error.value)
     (tmp_path / "b.csv").write_text(written("a,b,c", mark=","))
-    with pytest.raises(TraceError) as told:
+    with pytest.raises(TraceError) as error:
         read_trace(tmp_path / "b.csv")
     options = ("--column depth=NAME", "--unit depth=UNIT", "--column force=NAME", "--unit force=UNIT")
-    assert all(option in str(told.value) for option in options)
+    assert all(option in str(error.value) for option in options)
 
 
 def test_the_same_column_twice_is_no_doubt_and_an_axis_at_rest_is_no_force(tmp_path):

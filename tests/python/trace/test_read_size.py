@@ -82,17 +82,19 @@ def test_small_files_with_too_many_numbers_are_refused_before_these_are_read(tmp
     mat(paths[1], columns(2, 55_000_000))
     mat(paths[2], {"trial": columns(2, 55_000_000)})
     assert all(path.stat().st_size < 500_000 for path in paths)
-    said = in_little_memory(*paths)
-    assert all("holds 110,000,000 numbers or more; the limit is 100,000,000. Export only" in line for line in said[:2])
-    assert "structures of more than 100 MB; that is the limit. Save depth" in said[2]
+    printed = in_little_memory(*paths)
+    assert all(
+        "holds 110,000,000 numbers or more; the limit is 100,000,000. Export only" in line for line in printed[:2]
+    )
+    assert "structures of more than 100 MB; that is the limit. Save depth" in printed[2]
 
 
 def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
     rows = "".join(f"{0.001 * i:.4f},{1e-5 * i:.6f},{0.1 * (i % 100):.5f}\n" for i in range(40_000))
     (tmp_path / "a.csv").write_text("time_s,depth_mm,force_N\n" + 40 * rows)
     assert (tmp_path / "a.csv").stat().st_size > 35_000_000
-    said = in_little_memory(tmp_path / "a.csv")  # 1.6 million rows; as a list of lines and cells they take 600 MB
-    assert said == []
+    printed = in_little_memory(tmp_path / "a.csv")  # 1.6 million rows; as a list of lines and cells they take 600 MB
+    assert printed == []
 
 
 def test_a_text_file_with_too_many_numbers_is_refused_before_they_are_read(tmp_path, monkeypatch):
@@ -119,8 +121,8 @@ def test_what_is_hardly_a_table_takes_little_memory(tmp_path):
     paths = [tmp_path / f"{name}.csv" for name in ODD]
     for path, (data, _) in zip(paths, ODD.values(), strict=True):
         path.write_bytes(data)
-    for told, path, (_, words) in zip(in_little_memory(*paths), paths, ODD.values(), strict=True):
-        assert told.startswith(f"{path}: {words}")
+    for answer, path, (_, words) in zip(in_little_memory(*paths), paths, ODD.values(), strict=True):
+        assert answer.startswith(f"{path}: {words}")
 
 
 def test_a_text_has_a_smaller_limit_than_a_packed_file(tmp_path):

@@ -12,5 +12,5 @@ ROOT = Path(__file__).parents[3]
 def test_mypy_accepts_the_examples_and_a_program_that_passes_arrays() -> None:
     files = ["tests/python/typing/arrays_program.py", *map(str, sorted(ROOT.glob("examples/python/*.py")))]
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", "build/mypy", *files]
-    said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert said.returncode == 0, said.stdout + said.stderr
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
