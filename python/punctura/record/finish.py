@@ -27,7 +27,7 @@ class RecorderStatus:
     lost: int = 0  # ticks that will never be in the file
     lost_in_ring: int = 0  # of `lost`: the ring was full
     lost_in_backlog: int = 0  # of `lost`: not written, because the disk was too slow, full or gone
-    lost_otherwise: int = 0  # of `lost`: a defect, no memory, or a file changed by others; set at the end
+    lost_other: int = 0  # of `lost`: a defect, no memory, or a file changed by others; set at the end
     unwritten: dict[str, int] = field(default_factory=dict)  # lost_in_backlog by cause
     waiting_bytes: int = 0
     slowest_write_s: float = 0.0
@@ -117,21 +117,21 @@ def _is_spoiled(bad: BaseException, change: FileChange | None) -> bool:
 def _counted(status: RecorderStatus, rows: int, last_tick: int, made: int) -> RecorderStatus:
     """The status with the true number of ticks in the file, the number lost of `made`, and a note with the causes."""
     lost = max(0, made - rows)
-    otherwise = max(0, lost - status.lost_in_ring - status.lost_in_backlog)
-    status = replace(status, rows=rows, last_tick=last_tick, lost=lost, lost_otherwise=otherwise)
+    other = max(0, lost - status.lost_in_ring - status.lost_in_backlog)
+    status = replace(status, rows=rows, last_tick=last_tick, lost=lost, lost_other=other)
     return replace(status, notes=[*status.notes, _in_words(status, made)]) if lost else status
 
 
 def _causes(status: RecorderStatus) -> dict[str, int]:
     """Number of lost ticks by cause, for the header."""
-    return {"ring": status.lost_in_ring, "backlog": status.lost_in_backlog, "other": status.lost_otherwise}
+    return {"ring": status.lost_in_ring, "backlog": status.lost_in_backlog, "other": status.lost_other}
 
 
 def _in_words(status: RecorderStatus, made: int) -> str:
     reasons = (
         (status.lost_in_ring, "came faster than they could be read"),
         *((count, f"could not be written: {cause}") for cause, count in status.unwritten.items()),
-        (status.lost_otherwise, "were lost for another reason"),
+        (status.lost_other, "were lost for another reason"),
     )
     why = ", ".join(f"{count} {reason}" for count, reason in reasons if count)
     return f"{status.lost} of {made} ticks are lost: {why}"

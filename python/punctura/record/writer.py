@@ -143,7 +143,7 @@ class Writer:
             self._backlog.done()
             self.rows += piece.rows
             self.last_tick = piece.last_tick if piece.rows else self.last_tick
-            self._tell(moved, now)
+            self._report(moved, now)
 
     def _check(self) -> str:
         """A message if the file was moved, else empty. Raises _Lost if it was deleted or truncated."""
@@ -169,7 +169,7 @@ class Writer:
             return 0, -1
         return survey.rows, survey.last_tick
 
-    def _tell(self, moved: str, now: float) -> None:
+    def _report(self, moved: str, now: float) -> None:
         """After a write: reports that the file was moved, or notes that a problem has ended."""
         self.why_unwritten = ""
         if moved:

@@ -92,7 +92,7 @@ def test_ticks_that_never_leave_the_ring_are_counted(start):
     run.go()
     run.wait(lambda: "memory" in run.recorder.status().trouble)
     status = all_counted(run, run.recorder.finish())
-    assert status.lost == status.lost_otherwise == 3000
+    assert status.lost == status.lost_other == 3000
 
 
 def remove(run):
