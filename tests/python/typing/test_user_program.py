@@ -1,4 +1,4 @@
-"""mypy accepts correct user programs and finds mistakes. pyright finds the same, but needs a download."""
+"""mypy accepts the examples and correct user programs, and finds mistakes. tools/check_pyright.sh asks pyright."""
 
 from __future__ import annotations
 
@@ -11,22 +11,18 @@ import pytest
 
 pytest.importorskip("mypy")
 HERE = Path(__file__).parent
+ROOT = HERE.parents[2]
+PROGRAMS = ("arrays_program", "user_program", "user_mistakes")
 
 
-@pytest.fixture(scope="module")
-def refused():
-    """The lines with mypy errors, by file."""
-    files = ["tests/python/typing/user_program.py", "tests/python/typing/user_mistakes.py"]
+def test_mistakes_are_found_where_they_are_and_right_programs_and_the_examples_are_accepted():
+    files = [f"tests/python/typing/{name}.py" for name in PROGRAMS] + list(map(str, ROOT.glob("examples/python/*.py")))
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", "build/mypy", *files]
-    done = subprocess.run(command, cwd=HERE.parents[2], capture_output=True, text=True, timeout=300)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert done.returncode == 1 and "errors" in done.stdout.splitlines()[-1], done.stdout + done.stderr
-    lines: dict[str, set[int]] = {}
+    refused: dict[str, set[int]] = {}
     for path, line in re.findall(r"^(.+?):(\d+): error: ", done.stdout, re.MULTILINE):
-        lines.setdefault(path, set()).add(int(line))
-    return lines
-
-
-def test_mistakes_are_found_where_they_are_and_a_right_program_is_accepted(refused):
+        refused.setdefault(path, set()).add(int(line))
     text = (HERE / "user_mistakes.py").read_text(encoding="utf-8")
     wrong = {number for number, line in enumerate(text.splitlines(), 1) if line.endswith("# wrong")}
     assert len(wrong) == 7 and refused == {"tests/python/typing/user_mistakes.py": wrong}
