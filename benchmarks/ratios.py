@@ -33,16 +33,7 @@ def over_fused(rows: list[dict[str, Any]]) -> list[Ratio]:
             continue
         for name, most in MOST_OVER_FUSED.items():
             spread = row["contestants"][name]["over_fused"]
-            ratios.append(
-                Ratio(
-                    f"{name} / fused, {row['scalar']}, {row['motion']} motion",
-                    spread["median"],
-                    spread["lower_quartile"],
-                    spread["upper_quartile"],
-                    f"at most {most:g}",
-                    spread["median"] <= most,
-                )
-            )
+            ratios.append(_at_most(most, f"{name} / fused, {row['scalar']}, {row['motion']} motion", spread))
     return ratios
 
 
@@ -63,12 +54,10 @@ def under_numpy(rows: list[dict[str, Any]], loops: dict[str, dict[str, float]]) 
 
 def over_k06(rows: list[dict[str, Any]]) -> list[Ratio]:
     """A membrane of measured tissue / K06's membrane, with the same solver."""
-    ratios = []
-    for row in rows:
-        value, low, high = (row["over_k06"][key] for key in ("median", "lower_quartile", "upper_quartile"))
-        what = f"8 knots / K06, {row['solver']}, {row['form']}, {row['motion']}"
-        ratios.append(Ratio(what, value, low, high, f"at most {MOST_OVER_K06:g}", value <= MOST_OVER_K06))
-    return ratios
+    return [
+        _at_most(MOST_OVER_K06, f"8 knots / K06, {row['solver']}, {row['form']}, {row['motion']}", row["over_k06"])
+        for row in rows
+    ]
 
 
 def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
@@ -76,17 +65,15 @@ def over_cyclictest(wakeups: dict[str, Any]) -> list[Ratio]:
     ratios = []
     for row in wakeups["conditions"]:
         over = row.get("over_cyclictest", dict.fromkeys(("pooled", "lower_quartile", "upper_quartile"), math.nan))
-        ratios.append(
-            Ratio(
-                f"servo loop / cyclictest, {row['name']}",
-                over["pooled"],
-                over["lower_quartile"],
-                over["upper_quartile"],
-                f"at most {MOST_OVER_CYCLICTEST:g}",
-                over["pooled"] <= MOST_OVER_CYCLICTEST,
-            )
-        )
+        what = f"servo loop / cyclictest, {row['name']}"
+        ratios.append(_at_most(MOST_OVER_CYCLICTEST, what, over | {"median": over["pooled"]}))
     return ratios
+
+
+def _at_most(most: float, what: str, spread: dict[str, float]) -> Ratio:
+    value = spread["median"]
+    target = f"at most {most:g}"
+    return Ratio(what, value, spread["lower_quartile"], spread["upper_quartile"], target, value <= most)
 
 
 def all_ratios(result: dict[str, Any]) -> list[Ratio]:

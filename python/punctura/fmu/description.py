@@ -171,10 +171,15 @@ def _type_attributes(variable: Variable) -> dict[str, str]:
     return attributes
 
 
-def _variability(variable: Variable) -> str:
-    if variable.causality == "parameter":
-        return "fixed"
-    return "discrete" if variable.kind == "integer" else "continuous"
+def _attributes(variable: Variable) -> dict[str, str]:
+    attributes = {"name": variable.name, "valueReference": str(variable.reference), "causality": variable.causality}
+    varies = "discrete" if variable.kind == "integer" else "continuous"
+    attributes["variability"] = "fixed" if variable.causality == "parameter" else varies
+    if variable.causality in ("parameter", "output"):
+        attributes["initial"] = "exact" if variable.causality == "parameter" else "calculated"
+    if variable.description:
+        attributes["description"] = variable.description
+    return attributes
 
 
 def _finish(root: Element) -> bytes:
@@ -192,13 +197,7 @@ def _version_2(scene: Scene, found: list[Variable], identifier: str, token: str)
     listed = SubElement(root, "ModelVariables")
     types = {"real": "Real", "integer": "Integer", "boolean": "Boolean"}
     for variable in found:
-        attributes = {"name": variable.name, "valueReference": str(variable.reference)}
-        attributes |= {"causality": variable.causality, "variability": _variability(variable)}
-        if variable.causality in ("parameter", "output"):
-            attributes["initial"] = "exact" if variable.causality == "parameter" else "calculated"
-        if variable.description:
-            attributes["description"] = variable.description
-        element = SubElement(listed, "ScalarVariable", attributes)
+        element = SubElement(listed, "ScalarVariable", _attributes(variable))
         SubElement(element, types[variable.kind], _type_attributes(variable))
     structure = SubElement(root, "ModelStructure")
     indices = [str(i) for i, variable in enumerate(found, 1) if variable.causality == "output"]
@@ -219,13 +218,7 @@ def _version_3(scene: Scene, found: list[Variable], identifier: str, token: str)
     listed = SubElement(root, "ModelVariables")
     types = {"real": "Float64", "integer": "Int32", "boolean": "Boolean"}
     for variable in found:
-        attributes = {"name": variable.name, "valueReference": str(variable.reference)}
-        attributes |= {"causality": variable.causality, "variability": _variability(variable)}
-        if variable.causality in ("parameter", "output"):
-            attributes["initial"] = "exact" if variable.causality == "parameter" else "calculated"
-        if variable.description:
-            attributes["description"] = variable.description
-        SubElement(listed, types[variable.kind], attributes | _type_attributes(variable))
+        SubElement(listed, types[variable.kind], _attributes(variable) | _type_attributes(variable))
     structure = SubElement(root, "ModelStructure")
     for name in ("Output", "InitialUnknown"):
         for variable in found:

@@ -14,6 +14,7 @@ from punctura._core import Fault, ForceLimits, GateLimits, ServoLoop, SimulatedD
 from punctura.cli._headless import in_words, status_text
 from punctura.live import RunSummary, fit_conditioning, fit_direction, run_live, stroke_ends, strokes_through
 from punctura.simulation import Experiment, Strokes
+from recorded import run_to_end
 from waiting import LATE_ALLOWED, PATIENCE_S, wait_until
 
 SCENE = pn.load_scene("k06-fig10")
@@ -35,10 +36,7 @@ def test_a_run_ends_with_the_device_and_its_summary_counts_every_tick():
 def test_a_live_run_gives_the_offline_experiment_to_the_last_bit():
     loop = ServoLoop(simulated(seed=3), SCENE)
     listener = loop.listen(4096)
-    loop.arm()
-    loop.start()
-    wait_until(lambda: loop.device.finished)
-    loop.stop()
+    run_to_end(loop)
     live = listener.read()
     offline = Experiment(SCENE, STROKES, seed=3).run(2.5)
     assert listener.lost == 0

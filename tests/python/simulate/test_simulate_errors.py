@@ -117,20 +117,17 @@ def test_a_line_that_is_no_csv_is_reported(tmp_path):
     )
 
 
-def test_a_direction_of_no_length_is_reported(tmp_path):
+@pytest.mark.parametrize(
+    ("axis", "report"),
+    [
+        ("0,0,0", "axis_x, axis_y, axis_z are all 0; they must give a direction"),
+        ("0,inf,0", "axis_y is inf; fill the sample in, or cut the motion there"),
+    ],
+)
+def test_a_direction_of_no_length_or_that_is_not_finite_is_reported(tmp_path, axis, report):
     lines = [f"{line},0,-1,0" for line in LINES]
-    lines[40] = f"{LINES[40]},0,0,0"
-    assert error_of(tmp_path, [AXIS_HEADER, *lines]) == (
-        "line 42: axis_x, axis_y, axis_z are all 0; they must give a direction"
-    )
-
-
-def test_a_direction_that_is_not_finite_is_reported(tmp_path):
-    lines = [f"{line},0,-1,0" for line in LINES]
-    lines[40] = f"{LINES[40]},0,inf,0"
-    assert error_of(tmp_path, [AXIS_HEADER, *lines]) == (
-        "line 42: axis_y is inf; fill the sample in, or cut the motion there"
-    )
+    lines[40] = f"{LINES[40]},{axis}"
+    assert error_of(tmp_path, [AXIS_HEADER, *lines]) == f"line 42: {report}"
 
 
 @pytest.mark.parametrize("block_bytes", [300, 1 << 20])
