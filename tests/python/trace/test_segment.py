@@ -1,10 +1,13 @@
-"""Segments of synthetic traces against the motion that made them."""
+"""What a trace shows: its segments, the air before and behind the tissue, and the steps of its sensor."""
 
 import numpy as np
 import pytest
+from punctura import Membrane
 from punctura.trace import Trace, TraceError, segment
+from punctura.trace.findings import examine
+from punctura.trace.samples import rounding
 from punctura.trace.turns import noise_of, turning_points
-from traces import trace
+from traces import force_of, motion, trace
 
 
 def test_contact_and_pop_are_found_where_the_membrane_is():
@@ -54,3 +57,71 @@ def test_arrays_that_do_not_fit_together_are_refused():
         Trace(depth[:3], depth[:3])
     with pytest.raises(ValueError, match="read-only"):
         Trace(depth, depth).force[0] = 1
+
+
+NOISE = 8e-3
+SOFT = Membrane(stiffness=250, precompression=0.1, friction=0.3, thickness=0.3e-3)
+FIRM = Membrane(stiffness=2500, precompression=0.6, friction=0.3, thickness=0.5e-3)
+
+
+def layers(seed=1, change=0.0):
+    """A soft layer at 2 mm and a firm wall at 9 mm, with time; change: of the zero over the trace, N."""
+    time, depth = motion(deepest=18e-3)
+    force = force_of(depth, 2e-3, SOFT) + force_of(depth, 9e-3, FIRM)
+    force += change * np.linspace(0, 1, len(time)) + NOISE * np.random.default_rng(seed).normal(size=len(time))
+    return Trace(depth, force, time)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_contact_is_where_a_soft_layer_begins_and_its_force_is_no_offset(seed):
+    made = examine(layers(seed))
+    assert not {one.kind for one in made.findings} & {"offset", "drift"}
+    found = segment(made)
+    assert made.depth[found.contact] == pytest.approx(2e-3, abs=0.4e-3)
+    assert made.force[made.depth < 1e-3].mean() == pytest.approx(0, abs=3e-3)
+    assert made.depth[found.exit] < 9e-3 and np.abs(made.force[found.exit :]).max() < 5 * NOISE
+
+
+def test_every_tenth_sample_gives_the_same_contact():
+    made = layers()
+    few = made[::10]
+    assert few.depth[segment(few).contact] == pytest.approx(made.depth[segment(made).contact], abs=0.5e-3)
+
+
+def test_a_zero_that_has_changed_behind_the_tissue_is_a_drift():
+    made = examine(layers(change=0.4))
+    assert [one.kind for one in made.findings if one.kind == "drift"] == ["drift"]
+    assert made.depth[segment(made).contact] < 9.5e-3
+
+
+def test_a_needle_that_stays_in_the_tissue_has_no_exit():
+    made = layers()
+    for end in (5.5, 6.2):  # s: on the way out, but deeper than the firm wall
+        assert segment(made[made.time < end]).exit is None
+
+
+def test_a_spike_in_air_is_no_contact():
+    made = layers()
+    force = made.force.copy()
+    force[20] += 1.0
+    contact = segment(Trace(made.depth, force, made.time)).contact
+    assert made.depth[contact] == pytest.approx(2e-3, abs=0.4e-3)
+
+
+SMOOTH = np.sin(np.linspace(0, 3, 400)) + 1e-3 * np.random.default_rng(1).normal(size=400)
+
+
+@pytest.mark.parametrize("step", [0.02, 0.0075, 1 / 300])
+@pytest.mark.parametrize("zero", [0.0, 0.123456])
+def test_steps_are_found(step, zero):
+    stepped = np.round(np.round(SMOOTH / step) * step, 5) + zero
+    assert rounding(stepped) == pytest.approx(step / np.sqrt(12), rel=1e-2)
+
+
+def test_steps_of_which_one_is_never_seen_alone_are_found():
+    assert rounding(0.1 * np.array([0, 2, 5, 7, 9, 12, 14])) == pytest.approx(0.1 / np.sqrt(12))
+
+
+@pytest.mark.parametrize("values", [SMOOTH, np.zeros(9), np.array([0.0, 1.0, 0.0, 1.0]), SMOOTH[:8]])
+def test_values_on_no_grid_have_none(values):
+    assert rounding(values) == 0.0
