@@ -33,6 +33,32 @@ export function named<E extends HTMLElement>(host: E, name: string): E {
   return host;
 }
 
+/**
+ * Puts these elements into `host` in this order, as replaceChildren does, and does not touch those that are there: an
+ * element that is moved or built anew while it is pressed gets no click, and loses the focus.
+ */
+export function keepChildren(host: Element, children: readonly Element[]): void {
+  for (const old of [...host.children]) if (!children.includes(old)) old.remove();
+  children.forEach((child, i) => {
+    if (host.children[i] !== child) host.insertBefore(child, host.children[i] ?? null);
+  });
+}
+
+/** A list in `host`. An item that is the same as before, as JSON, keeps its element; `build` makes the others. */
+export function keptList<T>(host: Element, build: (item: T) => Element): (items: readonly T[]) => void {
+  let known = new Map<string, Element>();
+  return (items) => {
+    const before = known;
+    known = new Map(
+      items.map((item) => {
+        const words = JSON.stringify(item);
+        return [words, before.get(words) ?? build(item)];
+      }),
+    );
+    keepChildren(host, [...known.values()]);
+  };
+}
+
 /** A panel in a place of its own. label: for screen readers. */
 export function placed(name: string, label: string, panel: Panel, app: App): HTMLElement {
   const host = element("section", { class: `panel ${name}`, "aria-label": label });

@@ -1,5 +1,5 @@
 import { afterEach, expect, it, vi } from "vitest";
-import { everyFrame, named } from "../src/panel.ts";
+import { everyFrame, keptList, named } from "../src/panel.ts";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -21,4 +21,37 @@ it("a name of any length is cut by the style and whole on hover", () => {
   named(host as unknown as HTMLElement, "n".repeat(200));
   expect([host.title, host.textContent]).toEqual(Array(2).fill("n".repeat(200)));
   expect(host.classList.has("name")).toBe(true);
+});
+
+it("a list that is shown again does not touch what is the same: a button that is pressed keeps its click", () => {
+  const children: Entry[] = [];
+  const moved: string[] = [];
+  class Entry {
+    constructor(readonly text: string) {}
+    remove(): void {
+      children.splice(children.indexOf(this), 1);
+    }
+  }
+  const insertBefore = (entry: Entry, next: Entry | null): void => {
+    moved.push(entry.text);
+    if (children.includes(entry)) entry.remove();
+    children.splice(next ? children.indexOf(next) : children.length, 0, entry);
+  };
+  const host = { children, insertBefore } as unknown as Element;
+  const show = keptList<{ text: string }>(host, ({ text }) => new Entry(text) as unknown as Element);
+  const texts = (all: readonly string[]): { text: string }[] => all.map((text) => ({ text }));
+  show(texts(["a", "b", "c"]));
+  moved.length = 0;
+  for (const now of [
+    ["a", "b", "c"],
+    ["b", "c"],
+    ["new", "b", "other", "c"],
+  ]) {
+    const [b, c] = [children.find(({ text }) => text === "b"), children.find(({ text }) => text === "c")];
+    show(texts(now));
+    expect(children.map(({ text }) => text)).toEqual(now);
+    expect(children.find(({ text }) => text === "b")).toBe(b);
+    expect(children.find(({ text }) => text === "c")).toBe(c);
+  }
+  expect(moved).toEqual(["new", "other"]);
 });

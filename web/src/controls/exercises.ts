@@ -1,5 +1,5 @@
 import { tellAwake } from "../hand/awake.ts";
-import { element, named, type Panel } from "../panel.ts";
+import { element, keptList, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { backToStage, pageOf } from "../state/page.ts";
 import { resultPath } from "../wire/api.ts";
@@ -69,17 +69,13 @@ export const exercisesPanel: Panel = (host, app) => {
     past.root,
   );
 
-  const showList = (): void => {
-    list.replaceChildren(
-      ...known.map((exercise) =>
-        card(app, exercise, titleOf(exercise.name), () => void start(exercise.name), readList),
-      ),
-    );
-  };
+  const showList = keptList<{ exercise: ExerciseOverview; title: string }>(list, ({ exercise, title }) =>
+    card(app, exercise, title, () => void start(exercise.name), readList),
+  );
   const readList = async (): Promise<void> => {
     try {
       known = await app.api.json<ExerciseOverview[]>("/api/exercises");
-      showList();
+      showList(known.map((exercise) => ({ exercise, title: titleOf(exercise.name) })));
       showGoal(app, of);
       showTitle();
     } catch (error) {
@@ -97,9 +93,10 @@ export const exercisesPanel: Panel = (host, app) => {
     await readList();
     await past.show(person);
   });
-  let mine = true;
+  let mine: boolean | null = null; // not known before the studio says it
   app.control.watch(({ you }) => {
-    if (you && !mine && app.connection.value.state === "open") void readList(); // another page may have opened a file
+    if (app.connection.value.state !== "open") return;
+    if (you && mine === false) void readList(); // another page may have opened a file
     mine = you;
   });
   for (const word of [person.name, person.group])

@@ -1,4 +1,4 @@
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { element, everyFrame, keepChildren, type Panel } from "../panel.ts";
 import { nextStep, type Step } from "./fault_steps.ts";
 import { faultTicksLink } from "./fault_ticks.ts";
 
@@ -32,7 +32,7 @@ export const faultBanner: Panel = (host, app) => {
     happened.textContent = `The force is off. ${fault.reason}${trouble}`;
     link.replaceChildren(faultTicksLink(app, fault));
     look();
-    host.replaceChildren(mark, words, button);
+    keepChildren(host, [mark, words, button]);
   });
   everyFrame(look);
 };

@@ -1,4 +1,4 @@
-import { element, type Panel } from "../panel.ts";
+import { element, keepChildren, type Panel } from "../panel.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { Library } from "./recordings/library.ts";
 import { recordControl } from "./recordings/record.ts";
@@ -35,11 +35,10 @@ export const recordingsPanel: Panel = (host, app) => {
     const before = rows;
     for (const entry of entries) before.get(entry.name)?.update(entry);
     rows = new Map(entries.map((entry) => [entry.name, before.get(entry.name) ?? recordingRow(library, entry)]));
-    const roots = [...rows.values()].map((row) => row.root);
-    for (const old of [...list.children]) if (!roots.includes(old as HTMLElement)) old.remove();
-    roots.forEach((root, i) => {
-      if (list.children[i] !== root) list.insertBefore(root, list.children[i] ?? null);
-    });
+    keepChildren(
+      list,
+      [...rows.values()].map(({ root }) => root),
+    );
     note.hidden = entries.length > 0;
     note.textContent = "No recordings yet.";
     mark();

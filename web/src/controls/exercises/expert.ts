@@ -74,6 +74,7 @@ export function expertChoice(app: App, exercise: ExerciseOverview, changed: () =
   select.addEventListener("change", () => {
     void app.ask({ do: "set_expert", exercise: exercise.name, recording: select.value }).then((reply) => {
       tellProblems(app, reply);
+      if (!reply?.ok) select.value = exercise.expert;
       changed();
     });
   });

@@ -1,4 +1,4 @@
-import { element, named } from "../../panel.ts";
+import { element, keptList, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Result } from "../../wire/messages.ts";
 import { saveAddress } from "../download.ts";
@@ -22,7 +22,17 @@ export function pastResults(
 ): { root: HTMLElement; show(person: Person): Promise<void> } {
   const body = element("tbody", {});
   const note = element("p", { class: "quiet" });
-  const exports = element("div", { class: "tools quiet" });
+  let query = "";
+  const exports = element(
+    "div",
+    { class: "tools quiet" },
+    "Save all as",
+    ...FORMATS.map(([format, ending]) => {
+      const address = (): string => app.api.address(`/api/results/download?${query}&format=${format}`);
+      const act = (): void => saveAddress(address(), `results.${ending}`);
+      return element("button", { type: "button", class: "link", onclick: act }, format);
+    }),
+  );
   const table = element(
     "table",
     { class: "past" },
@@ -51,6 +61,7 @@ export function pastResults(
     table,
     exports,
   );
+  const showRows = keptList<Row>(body, (one) => row(one, open));
   let asked = 0;
   let last: Person | null = null;
   whole.addEventListener("change", () => {
@@ -62,7 +73,7 @@ export function pastResults(
     const group = who.group.value;
     scope.hidden = group === "";
     const all = group !== "" && whole.checked;
-    const query = all ? `group=${encodeURIComponent(group)}` : `person=${encodeURIComponent(who.name.value)}`;
+    query = all ? `group=${encodeURIComponent(group)}` : `person=${encodeURIComponent(who.name.value)}`;
     const whose = all ? `the class ${group}` : who.name.value || "attempts without a name";
     let results: Result[] = [];
     let words = "No results yet.";
@@ -77,26 +88,18 @@ export function pastResults(
     table.hidden = results.length === 0;
     exports.hidden = results.length === 0;
     progress.show(results);
-    body.replaceChildren(...results.map((result) => row(result, titleOf(result), all, open)));
-    exports.replaceChildren("Save all as");
-    for (const [format, ending] of FORMATS)
-      exports.append(
-        element(
-          "button",
-          {
-            type: "button",
-            class: "link",
-            onclick: () =>
-              saveAddress(app.api.address(`/api/results/download?${query}&format=${format}`), `results.${ending}`),
-          },
-          format,
-        ),
-      );
+    showRows(results.map((result) => ({ result, title: titleOf(result), withPerson: all })));
   };
   return { root, show };
 }
 
-function row(result: Result, title: string, withPerson: boolean, open: (result: Result) => void): HTMLElement {
+interface Row {
+  readonly result: Result;
+  readonly title: string;
+  readonly withPerson: boolean;
+}
+
+function row({ result, title, withPerson }: Row, open: (result: Result) => void): HTMLElement {
   const when = element("button", { type: "button", class: "link", onclick: () => open(result) }, dateText(result.date));
   return element(
     "tr",

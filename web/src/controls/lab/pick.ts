@@ -1,4 +1,4 @@
-import { element, named } from "../../panel.ts";
+import { element, keptList, named } from "../../panel.ts";
 import type { RecordingEntry, Result } from "../../wire/messages.ts";
 import { dateText, lengthText } from "../recordings/words.ts";
 
@@ -10,12 +10,37 @@ export const choose = (chosen: readonly string[], name: string, on: boolean): re
   ...(on ? [name] : []),
 ];
 
+interface Run {
+  readonly name: string;
+  readonly title: string;
+  readonly facts: string;
+}
+
+function rowOf({ name, title, seconds, started }: RecordingEntry, results: readonly Result[]): Run {
+  const result = results.find(({ recording }) => recording === name);
+  const facts = [
+    result && `${result.title}: ${result.passed ? "passed" : "not passed"}`,
+    result?.person,
+    lengthText(seconds),
+    dateText(started),
+  ];
+  return { name, title, facts: facts.filter(Boolean).join(" · ") };
+}
+
 /** A list of recordings and results with check boxes, and a button that compares the chosen ones. */
 export function pickRuns(act: (names: readonly string[]) => void): {
   readonly root: HTMLElement;
   offer(entries: readonly RecordingEntry[], results: readonly Result[]): void;
 } {
   const list = element("ul", { class: "lab-list" });
+  const showRows = keptList<Run>(list, ({ name, title, facts }) => {
+    const box = element("input", { type: "checkbox", value: name });
+    box.checked = chosen.includes(name);
+    const words = element("span", {}, named(element("span"), title || name), " ");
+    words.append(element("b", { "data-run": name, hidden: true }, "reference "));
+    words.append(element("span", { class: "quiet" }, facts));
+    return element("li", {}, element("label", {}, box, words));
+  });
   const none = element("p", { class: "quiet" }, "No recordings yet. Record a run, or try an exercise.");
   let chosen: readonly string[] = []; // in the order in which they were chosen
   const go = element("button", { type: "button", class: "small primary", onclick: () => act(chosen) }, "Compare");
@@ -44,23 +69,7 @@ export function pickRuns(act: (names: readonly string[]) => void): {
       chosen = chosen.filter((name) => entries.some((entry) => entry.name === name));
       none.hidden = entries.length > 0;
       list.hidden = go.hidden = entries.length === 0;
-      list.replaceChildren(
-        ...entries.map((entry) => {
-          const result = results.find(({ recording }) => recording === entry.name);
-          const facts = [
-            result && `${result.title}: ${result.passed ? "passed" : "not passed"}`,
-            result?.person,
-            lengthText(entry.seconds),
-            dateText(entry.started),
-          ].filter(Boolean);
-          const box = element("input", { type: "checkbox", value: entry.name });
-          box.checked = chosen.includes(entry.name);
-          const words = element("span", {}, named(element("span"), entry.title || entry.name), " ");
-          words.append(element("b", { "data-run": entry.name, hidden: true }, "reference "));
-          words.append(element("span", { class: "quiet" }, facts.join(" · ")));
-          return element("li", {}, element("label", {}, box, words));
-        }),
-      );
+      showRows(entries.map((entry) => rowOf(entry, results)));
       mark();
     },
   };

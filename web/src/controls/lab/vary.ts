@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, keptList } from "../../panel.ts";
 import type { RecordingEntry, SceneField } from "../../wire/messages.ts";
 import { fieldWords } from "./fields.ts";
 import type { Job } from "./job.ts";
@@ -20,6 +20,8 @@ export function varyForm(act: (job: Variation, title: string) => void): {
   };
   const field = element("select", {});
   const motion = element("select", {});
+  const option = ([value, text]: readonly [string, string]): HTMLElement => element("option", { value }, text);
+  const [offerFields, offerMotions] = [keptList(field, option), keptList(motion, option)];
   const [fromRow, from] = input("From", {});
   const [toRow, to] = input("To", {});
   const [countRow, count] = input("Runs", { min: 1, max: MOST, step: 1, value: 5 });
@@ -70,13 +72,11 @@ export function varyForm(act: (job: Variation, title: string) => void): {
       const valueAt = (path: string): number | undefined => fields.find((one) => one.path === path)?.value;
       const was = valueAt(before);
       fields = offered;
-      field.replaceChildren(...offered.map(({ path }) => element("option", { value: path }, fieldWords(path, names))));
-      motion.replaceChildren(
-        ...SPEEDS.map((speed) => element("option", { value: `stroke ${speed}` }, `stroke at ${speed} mm/s`)),
-        ...entries.map(({ name, title }) =>
-          element("option", { value: `recording ${name}` }, `as in ${title || name}`),
-        ),
-      );
+      offerFields(offered.map(({ path }) => [path, fieldWords(path, names)]));
+      offerMotions([
+        ...SPEEDS.map((speed) => [`stroke ${speed}`, `stroke at ${speed} mm/s`] as const),
+        ...entries.map(({ name, title }) => [`recording ${name}`, `as in ${title || name}`] as const),
+      ]);
       motion.value = moved || "stroke 5";
       const known = offered.some(({ path }) => path === before);
       if (known) {

@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { element, keepChildren } from "../../panel.ts";
 import { Signal } from "../../state/signal.ts";
 import { keep, storage } from "../../state/storage.ts";
 import { textWidth } from "./labels.ts";
@@ -62,9 +62,9 @@ export class Hidden {
 export function legend(hidden: Hidden): { readonly root: HTMLElement; show(curves: readonly Curve[]): void } {
   const root = element("div", { class: "plot-legend", role: "group", "aria-label": "Curves" });
   let shown = "";
-  let buttons = new Map<string, HTMLButtonElement>();
+  let entries = new Map<string, Entry>();
   const mark = (): void => {
-    for (const [id, button] of buttons) button.setAttribute("aria-pressed", String(hidden.shows(id)));
+    for (const [id, { button }] of entries) button.setAttribute("aria-pressed", String(hidden.shows(id)));
   };
   hidden.ids.watch(mark);
   return {
@@ -73,23 +73,38 @@ export function legend(hidden: Hidden): { readonly root: HTMLElement; show(curve
       const now = JSON.stringify(curves);
       if (now === shown) return;
       shown = now;
-      const kept = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.curve : undefined;
-      buttons = new Map(curves.map((curve) => [curve.id, entry(curve, () => hidden.toggle(curve.id))]));
-      const focused = root.contains(document.activeElement);
-      root.replaceChildren(...buttons.values());
-      if (focused && kept) buttons.get(kept)?.focus();
+      const before = entries;
+      entries = new Map(curves.map(({ id }) => [id, before.get(id) ?? new Entry(() => hidden.toggle(id))]));
+      for (const curve of curves) entries.get(curve.id)!.show(curve);
+      keepChildren(
+        root,
+        [...entries.values()].map(({ button }) => button),
+      );
       mark();
     },
   };
 }
 
-function entry({ id, text, short, colour, width, dash, shade }: Curve, act: () => void): HTMLButtonElement {
-  const kind = shade !== undefined ? "shade" : dash ? "dashed" : "line";
-  const sample = element("i", { class: kind, "aria-hidden": "true" });
-  sample.style.setProperty("--ink", colour);
-  if (width) sample.style.setProperty("--line-width", `${width}px`);
-  const label = short ? { "aria-label": text, title: text } : {};
-  return element("button", { type: "button", "data-curve": id, onclick: act, ...label }, sample, short ?? text);
+/** A curve's button. It stays while the curve's text changes, as the scale of a force does. */
+class Entry {
+  readonly button: HTMLButtonElement;
+  private readonly sample = element("i", { "aria-hidden": "true" });
+  private readonly words = document.createTextNode("");
+
+  constructor(act: () => void) {
+    this.button = element("button", { type: "button", onclick: act }, this.sample, this.words);
+  }
+
+  show({ text, short, colour, width, dash, shade }: Curve): void {
+    const { sample, button } = this;
+    sample.className = shade !== undefined ? "shade" : dash ? "dashed" : "line";
+    sample.style.setProperty("--ink", colour);
+    sample.style.setProperty("--line-width", width ? `${width}px` : "");
+    this.words.data = short ?? text;
+    for (const name of ["aria-label", "title"])
+      if (short) button.setAttribute(name, text);
+      else button.removeAttribute(name);
+  }
 }
 
 /** Draws a shade with a dense upper edge, which stays visible if the shade is narrow or lines cover it. */
