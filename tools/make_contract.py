@@ -147,7 +147,7 @@ def messages() -> dict[str, Any]:
     ]  # fmt: skip
     asked = [
         *({"id": 1, "do": do} for do in PLAIN),
-        {"do": "awake"},
+        {"do": "awake"}, {"do": "took"},
         {"do": "target", "run": 3, "position": TRIPLE, "axis": [0.0, -1.0, 0.0], "buttons": 1},
         {"id": 2, "do": "strokes", "period": 2.0},
         {"id": 22, "do": "push_plunger", "force": 3.5},

@@ -4,8 +4,7 @@ A browser that draws in software has more time for the tests then. No tick is le
 """
 
 from punctura.cli._app import main
-from punctura.studio import hub, session
+from punctura.studio import session
 
 session.PUMP_S = 1 / 12
-hub.MOST_FRAMES = 12  # still those of a second
 main()

@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
 from punctura.results import JsonObject
-from punctura.studio.wire.frames import Frame, decode_ticks
+from punctura.studio.wire.frames import Frame, decode_ticks, split
 
 T = TypeVar("T")
 PATIENCE_S = 120.0
@@ -140,7 +140,8 @@ class StudioClient:
                     self.run = message["run"] if message["kind"] == "scene" else self.run
                     self.messages.append(message)
                 else:
-                    self._take(decode_ticks(data))
+                    for frame in split(data):
+                        self._take(decode_ticks(frame))
         except ConnectionClosed:
             pass
         self.closed = (self._socket.close_code or 1006, self._socket.close_reason or "")

@@ -1,4 +1,4 @@
-"""All viewers. Each has a queue of its own: a slow viewer loses its own frames only.
+"""All viewers. Each has a queue of its own: a slow viewer gets more frames in a message, or loses its own frames only.
 
 Everything here runs on the server's event loop; the worker's thread uses `post`.
 """
@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from punctura.studio.hand import Pose
-from punctura.studio.limits import MOST_FRAMES, MOST_MESSAGES, MOST_VIEWERS
+from punctura.studio.limits import MOST_MESSAGES, MOST_ON_WAY, MOST_TICKS, MOST_VIEWERS
+from punctura.studio.wire.frames import SEVERAL, joined
 from punctura.studio.wire.messages import Control, HandPose, Status
 
 EVENTS_KEPT = 100  # of the present run, for new viewers
@@ -43,7 +44,9 @@ class Viewer:
         self.closed = ""
         self._queue: deque[Waiting] = deque()
         self._last: dict[str, Waiting] = {}  # of each kind of SUPERSEDED since the last scene, while it waits
-        self._frames = self._bytes = 0
+        self._ticks = self._bytes = 0  # bytes of frames and of messages in the queue
+        self._on_way = 0  # messages with ticks that were taken here and not yet by the page
+        self._answers = False  # whether the page says when it has taken one
         self._wake = asyncio.Event()
 
     def put(self, data: Data, kind: str = "") -> None:
@@ -51,9 +54,9 @@ class Viewer:
         if self.closed:
             return
         if isinstance(data, bytes):
-            if self._frames >= MOST_FRAMES:
+            if self._ticks + len(data) > MOST_TICKS:
                 self._drop_frames()
-            self._frames += 1
+            self._ticks += len(data)
         else:
             waiting = self._last.get(kind)
             self._bytes += len(data) - (len(waiting.data) if waiting else 0)
@@ -72,25 +75,51 @@ class Viewer:
         self._wake.set()
 
     def _drop_frames(self) -> None:
-        self.dropped += self._frames
-        self._frames = 0
-        self._queue = deque(entry for entry in self._queue if isinstance(entry.data, str))
+        kept = deque(entry for entry in self._queue if isinstance(entry.data, str))
+        self.dropped += len(self._queue) - len(kept)
+        self._queue, self._ticks = kept, 0
 
     async def take(self) -> Data | None:
-        """The next entry, in the order of `put`; None when the viewer must be closed."""
-        while not self._queue and not self.closed:
+        """What to send next, in the order of `put`; None when the viewer must be closed."""
+        while not self.ready and not self.closed:
             self._wake.clear()
             await self._wake.wait()
         if self.closed:
             return None
         entry = self._queue.popleft()
         if isinstance(entry.data, bytes):
-            self._frames -= 1
-        else:
-            self._bytes -= len(entry.data)
+            return self._with_the_next(entry.data)
+        self._bytes -= len(entry.data)
         if self._last.get(entry.kind) is entry:
             del self._last[entry.kind]
         return entry.data
+
+    def took(self) -> None:
+        """The page has taken a message with ticks."""
+        self._answers = True
+        self._on_way = max(0, self._on_way - 1)
+        self._wake.set()
+
+    @property
+    def ready(self) -> bool:
+        """Whether there is something to send now."""
+        if not self._queue:
+            return False
+        waits = self._answers and self._on_way >= MOST_ON_WAY
+        return not (waits and isinstance(self._queue[0].data, bytes))
+
+    def _with_the_next(self, frame: bytes) -> bytes:
+        """A message with this frame, and for a page that answers with those that wait behind it."""
+        frames = [frame]
+        while self._answers and self._queue:
+            data = self._queue[0].data
+            if isinstance(data, str):
+                break
+            frames.append(data)
+            self._queue.popleft()
+        self._ticks -= sum(map(len, frames))
+        self._on_way += 1
+        return frame if len(frames) == 1 else SEVERAL + joined(frames)
 
     def close(self, reason: str) -> None:
         self.closed = self.closed or reason

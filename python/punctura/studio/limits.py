@@ -23,7 +23,8 @@ REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 
 # Counts.
 MOST_VIEWERS = 32  # pages
-MOST_FRAMES = 60  # of ticks that wait for one page, a second of them; then all are dropped, which leaves one gap
+MOST_TICKS = 16_000_000  # bytes of ticks that wait for one page; then all are dropped, which leaves one gap
+MOST_ON_WAY = 2  # messages with ticks to a page that says when it has taken one
 MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed
 MOST_KNOWN = 128  # connections with the token: each page has one socket and at most six others
 MOST_STRANGERS = 64  # connections without the token: if there are more, the oldest is closed

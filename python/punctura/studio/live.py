@@ -19,7 +19,16 @@ from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
 from punctura.studio.wire.common import ProblemPart
 from punctura.studio.wire.messages import Reply, parse_request
-from punctura.studio.wire.requests import Awake, LoadText, NumberedRequest, OpenExercise, Pause, TakeControl, Target
+from punctura.studio.wire.requests import (
+    Awake,
+    LoadText,
+    NumberedRequest,
+    OpenExercise,
+    Pause,
+    TakeControl,
+    Target,
+    Took,
+)
 
 REFUSED = 1008  # close codes, RFC 6455
 FULL = 1013
@@ -116,6 +125,9 @@ def _answer(text: str, viewer: Viewer, hub: Hub, session: Session) -> Reply | Or
     if isinstance(request, Awake):
         if hub.holder == viewer.number:
             session.heard.hear(awake=True)
+        return None
+    if isinstance(request, Took):
+        viewer.took()
         return None
     if isinstance(request, TakeControl):
         hub.take_control(viewer)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import struct
 from collections.abc import Iterator
 
 import numpy as np
@@ -24,7 +23,7 @@ from punctura.studio.loaded import Loaded, from_tables, from_text
 from punctura.studio.pump import MOST_TICKS
 from punctura.studio.view import law_curves, membrane_views, obliquities, scene_view
 from punctura.studio.wire.common import Finite, LawCurve, MembraneView, Part, SceneView
-from punctura.studio.wire.frames import encode_ticks
+from punctura.studio.wire.frames import encode_ticks, joined
 from punctura.studio.wire.messages import MembraneEvent
 from punctura.ticks import ABSENT, INSIDE, Columns, Ticks
 
@@ -115,7 +114,7 @@ def tick_frames(recording: Recording) -> Iterator[bytes]:
                 lost += max(0, first - expected)
                 expected = int(piece.tick[-1]) + 1
                 frame = encode_ticks(piece, 0, lost)
-                yield struct.pack("<I", len(frame)) + frame + bytes(-len(frame) % 4)
+                yield joined([frame])
 
 
 def _whole(ticks: Ticks) -> Iterator[Ticks]:

@@ -2,10 +2,13 @@
 
 import asyncio
 import json
+import struct
+from collections import deque
 
 import numpy as np
 from punctura.studio import hub as hubs
 from punctura.studio.hub import Hub
+from punctura.studio.wire.frames import split
 from punctura.studio.wire.messages import (
     ExerciseStatus,
     Hello,
@@ -17,7 +20,8 @@ from punctura.studio.wire.messages import (
 )
 from punctura.studio.wire.messages import Status as Health
 
-FRAME = b"PNT2"
+FRAME = b"PNT2" + bytes(999_996)
+MOST = hubs.MOST_TICKS // len(FRAME)  # such frames that wait
 
 
 def hello(viewer):
@@ -62,7 +66,7 @@ def test_a_stalled_viewer_loses_its_own_frames_and_nobody_else_s():
             got += sum(data == FRAME for data in await all_of(quick))
         assert (got, quick.dropped) == (1000, 0)
         waits = [d for d in await all_of(stalled) if d == FRAME]
-        assert stalled.dropped + len(waits) == 1000 and len(waits) <= hubs.MOST_FRAMES
+        assert stalled.dropped + len(waits) == 1000 and len(waits) <= MOST
 
     run(test)
 
@@ -72,13 +76,13 @@ def test_frames_are_lost_in_one_go_and_messages_never():
         viewer = hub.join(hello)
         await all_of(viewer)
         hub.send(Notice(text="before"))
-        for i in range(hubs.MOST_FRAMES + 1):
-            hub.frame(bytes([i]))
+        for i in range(MOST + 1):
+            hub.frame(struct.pack("<I", i) + FRAME[4:])
         hub.send(Notice(text="after"))
         data = await all_of(viewer)
-        assert [d for d in data if isinstance(d, bytes)] == [bytes([hubs.MOST_FRAMES])]
+        assert [d for d in data if isinstance(d, bytes)] == [struct.pack("<I", MOST) + FRAME[4:]]
         assert ["before" in data[0], "after" in data[-1]] == [True, True]
-        assert viewer.dropped == hubs.MOST_FRAMES
+        assert viewer.dropped == MOST
 
     run(test)
 
@@ -101,11 +105,52 @@ def test_a_stalled_viewer_is_told_the_last_of_what_is_told_again_and_again():
         for rows in range(1000):
             hub.send(RecordingStatus(name="r", rows=rows, lost=0, seconds=0.0, trouble=""))
             hub.frame(FRAME)
-        assert viewer._bytes < 200 and len(viewer._queue) < 3 * hubs.MOST_FRAMES
+        assert viewer._bytes < 200 and len(viewer._queue) < 3 * MOST
         (last,) = [d for d in await all_of(viewer) if isinstance(d, str)]
         assert '"rows":999' in last and viewer._bytes == 0
         hub.send(RecordingStatus(name="", rows=0, lost=0, seconds=0.0, trouble=""))
         assert len(await all_of(viewer)) == 1
+
+    run(test)
+
+
+def test_a_page_that_answers_gets_every_tick_soon_however_slowly_it_takes_messages():
+    """60 frames a second come, and the page takes 4 messages a second; then it takes none for four seconds."""
+
+    async def test(hub):
+        viewer, got, on_way = hub.join(hello), [], deque()
+        await all_of(viewer)
+        viewer.took()
+        for turn in range(1200):
+            hub.frame(struct.pack("<I", turn))
+            while viewer.ready:
+                on_way.append(await viewer.take())
+            assert len(on_way) <= hubs.MOST_ON_WAY
+            if turn % 15 == 0 and not 600 <= turn < 840:
+                got += frames_of(on_way.popleft())
+                viewer.took()
+                assert turn - got[-1] <= 2 * 15 or 840 <= turn < 960
+        assert got == list(range(len(got))) and viewer.dropped == 0
+
+    run(test)
+
+
+def frames_of(message):
+    """The numbers in the frames of a message."""
+    return [struct.unpack("<I", frame)[0] for frame in split(message)]
+
+
+def test_a_message_with_ticks_ends_where_another_message_comes():
+    async def test(hub):
+        viewer = hub.join(hello)
+        await all_of(viewer)
+        viewer.took()
+        for turn in range(4):
+            hub.frame(struct.pack("<I", turn))
+            if turn == 2:
+                hub.send(Notice(text="between"))
+        ticks, words = await viewer.take(), await viewer.take()
+        assert frames_of(ticks) == [0, 1, 2] and "between" in words and frames_of(await viewer.take()) == [3]
 
     run(test)
 
@@ -125,7 +170,7 @@ def test_a_page_slower_than_frames_and_messages_is_told_of_an_exercise_each_seco
             if '"exercise"' in (told := str(await viewer.take())):
                 got.append(json.loads(told)["time"])
         assert got == sorted(got)
-        assert max(np.diff([0, *got, 1200])) <= hubs.MOST_FRAMES  # what it gets is at most a second old
+        assert max(np.diff([0, *got, 1200])) <= 60  # what it gets is at most a second old
 
     run(test)
 
@@ -218,11 +263,11 @@ def test_each_is_told_its_own_losses():
 
     async def test(hub):
         viewer = hub.join(hello)
-        for _ in range(hubs.MOST_FRAMES + 1):
+        for _ in range(MOST + 1):
             hub.frame(FRAME)
         other = hub.join(hello)
         hub.send(Health.model_validate(health))
-        assert f'"viewers":2,"dropped":{hubs.MOST_FRAMES}' in (await all_of(viewer))[-1]
+        assert f'"viewers":2,"dropped":{MOST}' in (await all_of(viewer))[-1]
         assert '"viewers":2,"dropped":0' in (await all_of(other))[-1]
 
     run(test)

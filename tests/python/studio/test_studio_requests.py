@@ -59,6 +59,18 @@ def test_every_tick_comes_once_and_in_order(page):
     assert np.all(np.diff(time) > 0)
 
 
+def test_a_page_that_says_what_it_took_gets_the_next_ticks_after_that_and_misses_none(served, page):
+    (viewer,) = served.hub.viewers.values()
+    took = '{"do": "took"}'
+    page.send(took)
+    page.wait(lambda: viewer.waiting > 30)
+    before = page.ticks
+    for _ in page.frames:
+        page.send(took)
+    page.wait(lambda: page.ticks > before)
+    assert page.gaps == 0
+
+
 def test_the_hand_is_dragged_through_a_membrane_and_the_pop_is_told_and_seen(page):
     page.wait(lambda: page.last.ticks["state"][-1] == int(ServoState.active))
     for k in range(100):

@@ -1,6 +1,7 @@
 import { Api, ApiError, type Fetch } from "../wire/api.ts";
+import { framesOf } from "../wire/length_prefixed.ts";
 import { parseMessage } from "../wire/parse.ts";
-import { decodeTicks } from "../wire/ticks.ts";
+import { decodeTicks, type TickBatch } from "../wire/ticks.ts";
 import { waitBefore } from "./backoff.ts";
 import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
 import { Pending } from "./pending.ts";
@@ -11,6 +12,7 @@ const ACCESS = "/api/access";
 /** Statuses for which another attempt is useless: no token, a foreign page, a wrong host name. */
 const REFUSED = [401, 403, 421];
 const SETTLED_MS = 2000;
+const TOOK = JSON.stringify({ do: "took" });
 
 /** The environment of the engine; tests replace it. */
 export interface Surroundings {
@@ -152,15 +154,16 @@ export class SocketEngine implements Engine {
     else this.complain("a frame of an unknown type");
   }
 
-  private takeTicks(frame: ArrayBuffer): void {
-    let batch: ReturnType<typeof decodeTicks>;
+  /** Takes a message with ticks, and asks for the next: a page that is late gets more frames in one message. */
+  private takeTicks(data: ArrayBuffer): void {
+    let batches: TickBatch[] = [];
     try {
-      batch = decodeTicks(frame);
+      batches = framesOf(data).map((frame) => decodeTicks(frame));
     } catch (error) {
       this.complain(error instanceof Error ? error.message : String(error));
-      return;
     }
-    this.listener?.ticks(batch);
+    for (const batch of batches) this.listener?.ticks(batch);
+    if (this.socket?.readyState === 1) this.socket.send(TOOK);
   }
 
   private takeMessage(text: string): void {

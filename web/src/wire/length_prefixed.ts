@@ -1,6 +1,7 @@
 import { FrameError } from "./ticks.ts";
 
 const LARGEST = 1 << 26; // bytes of one frame
+const SEVERAL = 0x53544e50; // "PNTS"
 
 /** Splits a stream of bytes into frames: the length (u32), the frame, and zeros up to a multiple of 4 bytes. */
 export class FrameSplitter {
@@ -28,6 +29,15 @@ export class FrameSplitter {
   end(): void {
     if (this.rest.byteLength > 0) throw new FrameError("the stream ends within a frame");
   }
+}
+
+/** The frames of a message of the socket: one alone, or several behind a word of their own. Throws FrameError. */
+export function framesOf(data: ArrayBuffer): ArrayBuffer[] {
+  if (data.byteLength < 4 || new DataView(data).getUint32(0, true) !== SEVERAL) return [data];
+  const splitter = new FrameSplitter();
+  const frames = splitter.push(new Uint8Array(data, 4));
+  splitter.end();
+  return frames;
 }
 
 function joined(left: Uint8Array<ArrayBuffer>, right: Uint8Array): Uint8Array<ArrayBuffer> {

@@ -20,6 +20,7 @@ export type Request =
   | Reset
   | Target
   | Awake
+  | Took
   | Strokes
   | PushPlunger
   | PlayMotion
@@ -414,6 +415,12 @@ export interface Target {
  */
 export interface Awake {
   do: "awake";
+}
+/**
+ * The page has taken a message with ticks. From its first `took` on, few are on the way. No reply.
+ */
+export interface Took {
+  do: "took";
 }
 /**
  * The simulated hand strokes through all membranes and back, until the next target.

@@ -1,10 +1,15 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Triple } from "../../src/engine/engine.ts";
+import { prefixed } from "../controls/support/prefixed.ts";
 import { makeFrame } from "../wire/frame.ts";
 import { bench } from "./fake_socket.ts";
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
+
+/** A message with several frames: python/punctura/studio/hub.py. */
+const several = (frames: readonly ArrayBuffer[]): ArrayBuffer =>
+  Uint8Array.of(...new TextEncoder().encode("PNTS"), ...prefixed(frames)).buffer;
 
 const DOWN: Triple = [0, -1, 0];
 
@@ -162,7 +167,19 @@ describe("what comes in", () => {
     expect(batches[0]).toMatchObject({ firstTick: 320, count: 26, membranes: 2 });
   });
 
+  it("is answered for each message with ticks, and a message can have several frames", () => {
+    const { socket, batches } = bench();
+    socket().opens();
+    const frames = [makeFrame({ first: 0, count: 3, membranes: 1 }), makeFrame({ first: 3, count: 2, membranes: 1 })];
+    socket().says(frames[0]);
+    socket().says(several(frames));
+    socket().says({ kind: "notice", text: "no ticks" });
+    expect(batches.map(({ firstTick }) => firstTick)).toEqual([0, 0, 3]);
+    expect(socket().sent).toEqual([{ do: "took" }, { do: "took" }]);
+  });
+
   it.each([
+    ["several frames cut off", several([makeFrame({ count: 3, membranes: 1 })]).slice(0, 100), "within a frame"],
     ["ticks cut off", makeFrame({ count: 3, membranes: 1 }).slice(0, 200), "ends within"],
     ["ticks with a tail", new Uint8Array(new ArrayBuffer(48)).fill(0).buffer, "wrong magic number"],
     ["an empty frame", new ArrayBuffer(0), "too short"],

@@ -44,7 +44,7 @@ it("has one of each kind of message and request that the page has a type for", (
   }; // biome-ignore format: a table
   const requests: Record<Request["do"], true> = {
     take_control: true, arm: true, pause: true, reset: true, target: true,
-    awake: true, strokes: true,
+    awake: true, took: true, strokes: true,
     push_plunger: true, play_motion: true, edit: true,
     load: true, load_text: true, compare: true, estimate: true,
     start_recording: true, stop_recording: true, start_exercise: true,

@@ -21,6 +21,7 @@ Times are seconds after the first tick's, so that f32 keeps them to a nanosecond
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,6 +34,7 @@ from punctura.ticks.fields import shape_of
 MAGIC = 0x32544E50
 HEAD = struct.Struct("<IIIIQdII")
 OTHER_SOLVER = 1
+SEVERAL = b"PNTS"  # a message that begins with it has several frames
 
 _ON_PAGE = [field for field in FIELDS.values() if field.on_page]
 NUMBERS = [field for field in _ON_PAGE if field.words is None]
@@ -75,6 +77,23 @@ def encode_ticks(ticks: Ticks, run: int, lost: int = 0, other_force: npt.NDArray
         parts.append(np.ascontiguousarray(other_force, "<f4").tobytes())
     parts += [np.ascontiguousarray(ticks[field.name], "u1").tobytes() for field in WORDS]
     return b"".join(parts)
+
+
+def joined(frames: Iterable[bytes]) -> bytes:
+    """Of each frame its length (u32), the frame, and zeros up to a multiple of 4 bytes."""
+    return b"".join(struct.pack("<I", len(frame)) + frame + bytes(-len(frame) % 4) for frame in frames)
+
+
+def split(message: bytes) -> list[bytes]:
+    """The frames of a message of the socket: one, or several behind SEVERAL, each with its length."""
+    if not message.startswith(SEVERAL):
+        return [message]
+    frames, at = [], len(SEVERAL)
+    while at < len(message):
+        (size,) = struct.unpack_from("<I", message, at)
+        frames.append(message[at + 4 : at + 4 + size])
+        at += 4 + size + -size % 4
+    return frames
 
 
 def decode_ticks(frame: bytes) -> Frame:

@@ -53,6 +53,12 @@ class Awake(Part):
     do: Literal["awake"] = "awake"
 
 
+class Took(Part):
+    """The page has taken a message with ticks. From its first `took` on, few are on the way. No reply."""
+
+    do: Literal["took"] = "took"
+
+
 class Strokes(_Request):
     """The simulated hand strokes through all membranes and back, until the next target."""
 
@@ -194,8 +200,8 @@ NumberedRequest = (
     | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault
 )  # fmt: skip
 Request = Annotated[
-    TakeControl | Arm | Pause | Reset | Target | Awake | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText
-    | Compare | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
+    TakeControl | Arm | Pause | Reset | Target | Awake | Took | Strokes | PushPlunger | PlayMotion | Edit | Load
+    | LoadText | Compare | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
