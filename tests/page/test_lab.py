@@ -10,10 +10,10 @@ from playwright.sync_api import expect
 
 def test_a_parameter_is_varied_and_saved_and_the_moment_and_the_curves_are_chosen(page, tmp_path):
     ready(page)
-    permitted = page.locator(".time-plots").get_by_role("button", name="permitted force")
-    expect(permitted).to_have_attribute("aria-pressed", "false")
-    permitted.click()
-    depth = page.locator(".force-depth").get_by_role("button", name="permitted force")
+    limit = page.locator(".time-plots").get_by_role("button", name="force limit")
+    expect(limit).to_have_attribute("aria-pressed", "false")
+    limit.click()
+    depth = page.locator(".force-depth").get_by_role("button", name="force limit")
     expect(depth).to_have_attribute("aria-pressed", "true")
 
     tab(page, "Lab").get_by_role("button", name="Simulate").click()

@@ -35,7 +35,7 @@ def test_the_coach_shows_its_moment_and_a_page_that_looks_on_follows(page, studi
     card = page.locator("article.exercise", has_text=TITLE)
     card.get_by_role("button", name="Start").click()
     with opened(browser, studio.url) as projector:
-        expect(projector.locator(".header")).to_contain_text("Another page has control")
+        expect(projector.locator(".header")).to_contain_text("Another page moves the needle")
         lose(page)
         dialog, shown = page.get_by_role("dialog"), projector.get_by_role("dialog")
         expect(dialog.locator(".coach.change p")).to_have_count(1)

@@ -1,6 +1,6 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
-import { withoutControl } from "../state/control.ts";
+import { controlWords } from "../state/control.ts";
 
 export interface Block {
   readonly reason: string;
@@ -23,7 +23,7 @@ export function blockOf(app: App, reach: Reach = "run"): Block | null {
     return { reason: what, remedy: "live" };
   }
   if (!app.control.value.you) {
-    return { reason: `${withoutControl(app.control.value)}.`, remedy: "control" };
+    return { reason: `${controlWords(app)}.`, remedy: "control" };
   }
   if (reach === "scene" && app.exercise.value?.running) {
     return { reason: "An exercise is running: scene and recording are locked.", remedy: null };

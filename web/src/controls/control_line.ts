@@ -1,17 +1,16 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
-import { withoutControl } from "../state/control.ts";
+import { controlWords } from "../state/control.ts";
 
 /** Tells which page has control, with a button that takes it. */
 export function controlLine(app: App): HTMLElement {
   const words = element("span", { role: "status", class: "control-words" });
   const take = takeControl(app);
   const show = (): void => {
-    const { value: control } = app.control;
-    const all = control.you ? "You have control" : withoutControl(control);
-    words.textContent = app.connection.value.state === "open" ? all : "";
+    words.textContent = app.connection.value.state === "open" ? controlWords(app) : "";
   };
   app.control.watch(show);
+  app.hello.watch(show);
   app.connection.watch(show);
   // Without a studio, no other page can have control.
   return element("span", { class: "control", hidden: !app.engine.studio }, words, take);

@@ -1,6 +1,6 @@
 import { handOf } from "../hand/hand.ts";
 import type { App } from "../state/app.ts";
-import { withoutControl } from "../state/control.ts";
+import { controlWords } from "../state/control.ts";
 import { inTissue } from "../state/tissue.ts";
 
 /** The next thing that leads out of a fault: what its button does, and the sentence that says what is missing. */
@@ -17,7 +17,7 @@ export const TURN_ON = "Turn force on";
 export function nextStep(app: App): Step {
   if (!app.control.value.you) {
     const act = (): void => void app.ask({ do: "take_control" });
-    return { label: "Take control", sentence: `${withoutControl(app.control.value)}: take control first.`, act };
+    return { label: "Take control", sentence: `${controlWords(app)}: take control first.`, act };
   }
   const moves = app.status.value?.hand;
   const outByItself = moves === "strokes" || moves === "motion";

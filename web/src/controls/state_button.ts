@@ -1,6 +1,6 @@
 import { element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
-import { withoutControl } from "../state/control.ts";
+import { controlWords } from "../state/control.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { TURN_ON, waitingFor } from "./fault_steps.ts";
@@ -27,7 +27,7 @@ export function stateButton(app: App): HTMLElement {
   const enable = (): void => {
     button.disabled = app.connection.value.state !== "open" || !app.control.value.you || shown < 0;
     button.hidden = shown === FAULTED;
-    button.title = app.control.value.you ? "" : withoutControl(app.control.value);
+    button.title = app.control.value.you ? "" : controlWords(app);
   };
   app.connection.watch(enable);
   app.control.watch(enable);

@@ -1,6 +1,6 @@
 import type { Triple } from "../engine/engine.ts";
 import type { App } from "../state/app.ts";
-import { withoutControl } from "../state/control.ts";
+import { controlWords } from "../state/control.ts";
 import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
 import type { HandPose } from "../wire/messages.ts";
@@ -74,7 +74,7 @@ export class Hand {
     if (source.value.excerpt) return "A moment is shown again. Go back to the live run to move the needle.";
     if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
     if (!source.value.live) return "A recording is shown. Go back to the live run to move the needle.";
-    if (!control.value.you) return `${withoutControl(control.value)}.`;
+    if (!control.value.you) return `${controlWords(this.app)}.`;
     return null;
   }
 

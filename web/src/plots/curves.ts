@@ -10,7 +10,7 @@ import { colourOf, type Theme } from "./kit/theme.ts";
 export const DASH = [5, 3] as const;
 export const CUT_SHADE = 0.22;
 
-/** The curves that are switched off in both plots. The permitted force is far above the others, so it begins off. */
+/** The curves that are switched off in both plots. The force limit is far above the others, so it begins off. */
 export const hiddenOf = onePerApp(() => new Hidden("punctura.hidden-curves", ["permitted"]));
 
 /** Name of the solver that runs next to the scene's solver while Compare is on. */
@@ -29,7 +29,7 @@ export const membraneCurves = (source: Source, theme: Theme): Curve[] =>
 export function forceCurves(source: Source, first: number, end: number, theme: Theme): Curve[] {
   const curves: Curve[] = [
     { id: "felt", text: feltForce(scaleOf(source)), colour: theme.text },
-    { id: "permitted", text: "permitted force", colour: theme.danger, dash: DASH },
+    { id: "permitted", text: "force limit", colour: theme.danger, dash: DASH },
   ];
   if (isCompared(source.history, first, end))
     curves.push({ id: "other", text: otherName(source), colour: theme.quiet });

@@ -153,7 +153,7 @@ export class ForceDepthDrawing {
     }
   }
 
-  /** Draws the felt force, the permitted force and the other solver's force, where they are switched on. */
+  /** Draws the felt force, the force limit and the other solver's force, where they are switched on. */
   private drawMore(pen: Pen, picture: ForceDepthPicture, first: number, end: number, theme: Theme): void {
     const { source, hidden } = picture;
     const { history } = source;

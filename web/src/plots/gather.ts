@@ -150,7 +150,7 @@ export function gatherFelt(
   });
 }
 
-/** The permitted force while the tip is inside a membrane, N; NaN outside it. */
+/** The force limit while the tip is inside a membrane, N; NaN outside it. */
 export function gatherPermitted(
   history: History,
   first: number,

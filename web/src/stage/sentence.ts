@@ -7,9 +7,7 @@ import { remember, remembered } from "../state/remembered.ts";
 import { type Band, bandAt } from "../tissue/bands.ts";
 import type { Felt } from "./attempt.ts";
 
-/** Of a page that looks on, as on a projector, while the tip is outside the tissue. */
-const ANOTHER = "Another page moves the needle.";
-const NOBODY = "Nobody moves the needle. To move it here, press More and then Take control.";
+const TO_MOVE = "To move it here, press More and then Take control.";
 
 /** The one sentence of the stage: what is, or what to do next, as the needle is now. */
 export class Sentence {
@@ -36,7 +34,7 @@ export class Sentence {
     const watches = barred !== null && !you && app.connection.value.state === "open";
     if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
-    if (watches) return place(bands, now) || (holder === null ? NOBODY : ANOTHER);
+    if (watches) return place(bands, now) || (holder === null ? `${barred} ${TO_MOVE}` : barred);
     if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }

@@ -1,3 +1,13 @@
-/** Why this page cannot move the needle: which page has control, if any. Without a full stop. */
-export const withoutControl = ({ holder }: { readonly holder: number | null }): string =>
-  holder === null ? "No page has control" : "Another page has control";
+import type { App } from "./app.ts";
+
+/**
+ * Who has control, in words without a full stop. Whoever controls a simulated device moves its needle; a real one is
+ * moved by a hand.
+ */
+export function controlWords({ control, hello }: Pick<App, "control" | "hello">): string {
+  const { you, holder } = control.value;
+  const simulated = hello.value?.device.simulated ?? true;
+  if (you) return simulated ? "You move the needle" : "You have control";
+  if (holder === null) return simulated ? "Nobody moves the needle" : "No page has control";
+  return simulated ? "Another page moves the needle" : "Another page has control";
+}

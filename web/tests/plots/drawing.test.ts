@@ -101,7 +101,7 @@ describe("force against depth", () => {
     const from = source({ other_force: other, model_force: () => [0, 0.25, 0] });
     const { file } = drawn({ ...picture(from), overlay: source() });
     const names = forceDepthCurves({ ...picture(from), overlay: source() }, theme).map(({ text }) => text);
-    expect(names).toEqual(["1 membrane", "felt force", "permitted force", "paper solver", "friction band", "test"]);
+    expect(names).toEqual(["1 membrane", "felt force", "force limit", "paper solver", "friction band", "test"]);
     expect(heights(file, "black").length).toBeGreaterThan(100);
   });
 });

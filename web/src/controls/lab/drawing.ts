@@ -15,7 +15,7 @@ const PALE = 8; // more runs than this are drawn paler, behind their mean
 export const QUANTITIES: Readonly<Record<Quantity, string>> = {
   model: "model force",
   felt: "felt force",
-  permitted: "permitted force",
+  permitted: "force limit",
   thumb: "thumb, model force",
   pressure: "pressure in the syringe",
   plunger: "plunger",
