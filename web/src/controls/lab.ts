@@ -1,6 +1,8 @@
 import { element, type Panel } from "../panel.ts";
 import type { RecordingEntry, Result, SceneField } from "../wire/messages.ts";
+import { plainPaths } from "./editor/problems.ts";
 import { estimatePart } from "./lab/estimate.ts";
+import { runWords } from "./lab/fields.ts";
 import { compute, type Job } from "./lab/job.ts";
 import { pickRuns } from "./lab/pick.ts";
 import { openComparison } from "./lab/result.ts";
@@ -19,6 +21,7 @@ export const labPanel: Panel = (host, app) => {
 };
 
 const comparisons: Panel = (host, app) => {
+  const membraneNames = (): string[] => app.live.scene.value?.membranes.map(({ name }) => name) ?? [];
   const inLine = element("div"); // a row for each computation: the studio says how many come before it
   const trouble = element("p", { class: "error", role: "alert" });
 
@@ -30,6 +33,7 @@ const comparisons: Panel = (host, app) => {
       return;
     }
     const stop = new AbortController();
+    const names = membraneNames();
     const bar = element("progress", { max: 1, value: 0, "aria-label": `Progress: ${title}` });
     const words = element("span", { class: "quiet" }, `${title}: computing…`);
     const cancel = element("button", { type: "button", class: "small", onclick: () => stop.abort() }, "Cancel");
@@ -38,11 +42,13 @@ const comparisons: Panel = (host, app) => {
     try {
       const report = (share: number, run: string): void => {
         bar.value = share;
-        words.textContent = `${title}: ${run}`;
+        words.textContent = `${title}: ${runWords(run, names)}`;
       };
-      openComparison(app, job, title, await compute(app.api, job, report, stop.signal));
+      const done = await compute(app.api, job, report, stop.signal);
+      const statistics = done.statistics.map((run) => ({ ...run, name: runWords(run.name, names) }));
+      openComparison(app, job, title, { ...done, statistics });
     } catch (error) {
-      if (!stop.signal.aborted) trouble.append(`${title}: ${wordsOf(error)} `);
+      if (!stop.signal.aborted) trouble.append(`${title}: ${plainPaths(wordsOf(error))} `);
     } finally {
       row.remove();
     }
@@ -59,7 +65,7 @@ const comparisons: Panel = (host, app) => {
       ]);
       picked.offer(entries, results);
       const fields = await app.api.json<SceneField[]>("/api/lab/fields");
-      vary.offer(fields, entries, app.live.scene.value?.membranes.map(({ name }) => name) ?? []);
+      vary.offer(fields, entries, membraneNames());
     } catch (error) {
       trouble.textContent = wordsOf(error);
     }

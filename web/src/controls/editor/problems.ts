@@ -30,11 +30,15 @@ function vectorOf(path: string, shown: ReadonlySet<string>): string | null {
 export const sentence = ({ path, value, reason }: ProblemPart): string =>
   path ? `${plainPaths(path)}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${words(reason)}` : words(reason);
 
+const SCENE_PATH = /\b(needle|coupling|servo|display|syringe|membrane)(?:\[(\d+)\])?\.(\w+)(?:\[(\d)\])?/g;
+const UNIT = /_(?:N|Ns|mm|rad|deg|hz|s|mL|kPa|per)(?:_\w+)?$/;
+
 /** A text without a scene file's own names: "membrane 1, stiffness" for "membrane[0].stiffness_N_per_mm". */
-const plainPaths = (text: string): string =>
-  text.replace(/\bmembrane\[(\d+)\]\.(\w+)/g, (_, index, key: string) => {
-    const name = key.replace(/_(?:N|mm|rad|deg|s)(?:_per_mm)?$/, "").replaceAll("_", " ");
-    return `membrane ${Number(index) + 1}, ${name}`;
+export const plainPaths = (text: string): string =>
+  text.replace(SCENE_PATH, (_, table: string, index: string | undefined, key: string, axis: string | undefined) => {
+    const owner = index === undefined ? table : `${table} ${Number(index) + 1}`;
+    const name = key.replace(UNIT, "").replaceAll("_", " ");
+    return `${owner}, ${name}${axis === undefined ? "" : ` ${"xyz"[Number(axis)] ?? ""}`}`;
   });
 
 /** A reason as a sentence, without the number of the paper's equation. */

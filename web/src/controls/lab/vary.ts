@@ -1,6 +1,6 @@
 import { element, keptList } from "../../panel.ts";
 import type { RecordingEntry, SceneField } from "../../wire/messages.ts";
-import { fieldWords } from "./fields.ts";
+import { fieldWords, plainNumber, shownUnit } from "./fields.ts";
 import type { Job } from "./job.ts";
 
 type Variation = Exclude<Job, { recordings: unknown }>;
@@ -27,11 +27,14 @@ export function varyForm(act: (job: Variation, title: string) => void): {
   const [countRow, count] = input("Runs", { min: 1, max: MOST, step: 1, value: 5 });
   const unit = element("span", { class: "quiet" });
   let fields: readonly SceneField[] = [];
+  const chosen = (): Pick<SceneField, "value" | "unit"> =>
+    fields.find(({ path }) => path === field.value) ?? { value: 0, unit: "-" };
   const suggest = (): void => {
-    const { value, unit: name } = fields.find(({ path }) => path === field.value) ?? { value: 0, unit: "" };
-    unit.textContent = `now ${Number(value.toPrecision(6))} ${name}; in the scene file: ${field.value}`;
-    from.value = String(Number((value * (1 - AROUND)).toPrecision(4)));
-    to.value = String(Number((value * (1 + AROUND)).toPrecision(4)));
+    const { value, unit: si } = chosen();
+    const [name, gain] = shownUnit(si);
+    unit.textContent = `now ${plainNumber(value * gain)} ${name}`;
+    from.value = plainNumber(value * gain * (1 - AROUND), 4);
+    to.value = plainNumber(value * gain * (1 + AROUND), 4);
   };
   field.addEventListener("change", suggest);
   const simulate = element("button", { type: "submit", class: "small primary", disabled: true }, "Simulate");
@@ -48,13 +51,14 @@ export function varyForm(act: (job: Variation, title: string) => void): {
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const chosen = motion.value.startsWith("stroke ") ? Number(motion.value.slice(7)) / 1e3 : motion.value.slice(10);
+    const by = motion.value.startsWith("stroke ") ? Number(motion.value.slice(7)) / 1e3 : motion.value.slice(10);
+    const [, gain] = shownUnit(chosen().unit);
     const job = {
       path: field.value,
-      from: Number(from.value),
-      to: Number(to.value),
+      from: Number(from.value) / gain,
+      to: Number(to.value) / gain,
       count: Number(count.value),
-      motion: chosen,
+      motion: by,
       id: Math.random().toString(36).slice(2),
     };
     act(job, `${field.selectedOptions[0]?.text ?? field.value} varied`);

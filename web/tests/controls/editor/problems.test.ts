@@ -12,6 +12,9 @@ test("a problem is shown at the field that caused it, all others at the top", ()
       { path: "membrane[0].point_mm[2]", value: "x", reason: "must be a number" },
       { path: "servo.rate_hz", value: "0", reason: "must be greater than 0" },
       { path: "membrane[0].stiffness_N_per_mm", value: "0", reason: "must be greater than 0" },
+      { path: "membrane[2].point_mm[1]", value: "x", reason: "must be a number" },
+      { path: "coupling.relaxation_time_constant_s", value: "0", reason: "must be greater than 0" },
+      { path: "goal[0].seconds", value: "x", reason: "must be a number" },
       { path: "", value: "", reason: "membrane[1].tail_length_mm needs a tail" },
     ],
     shown,
@@ -19,8 +22,11 @@ test("a problem is shown at the field that caused it, all others at the top", ()
   expect(fields.get("membrane[1].friction")).toBe("The largest value that is allowed is 3.477.");
   expect(fields.get("membrane[0].point_mm")).toBe("Must be a number.");
   expect(others).toEqual([
-    "servo.rate_hz = 0: Must be greater than 0.",
+    "servo, rate = 0: Must be greater than 0.",
     "membrane 1, stiffness = 0: Must be greater than 0.",
+    "membrane 3, point y = x: Must be a number.",
+    "coupling, relaxation time constant = 0: Must be greater than 0.",
+    "goal[0].seconds = x: Must be a number.",
     "Membrane 2, tail length needs a tail.",
   ]);
 });

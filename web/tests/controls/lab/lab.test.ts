@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
+import { sceneForm } from "../../../src/controls/editor/fields.ts";
 import { drawLab, labCurves, quantitiesOf } from "../../../src/controls/lab/drawing.ts";
-import { fieldWords, shortNames } from "../../../src/controls/lab/fields.ts";
+import { fieldWords, runWords, shortNames, shownUnit } from "../../../src/controls/lab/fields.ts";
 import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
 import { choose } from "../../../src/controls/lab/pick.ts";
 import { stretches } from "../../../src/plots/band_mean.ts";
@@ -9,6 +10,7 @@ import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 import { Api } from "../../../src/wire/api.ts";
 import type { LabBand, LabComparison } from "../../../src/wire/messages.ts";
+import schema from "../support/schema.json";
 
 const band = (...runs: number[][]): LabBand => ({
   x: [0, 1e-3, 2e-3],
@@ -80,9 +82,24 @@ describe("a comparison", () => {
   it("names a field by its membrane, and a varied run by its value alone", () => {
     expect(fieldWords("membrane[1].tip_length", ["skin", "vein wall"])).toBe("2 vein wall: tip length");
     expect(fieldWords("needle.diameter", [])).toBe("needle: diameter");
+    expect(fieldWords("membrane[0].inward_normal[1]", ["skin"])).toBe("1 skin: inward normal y");
     expect(shortNames(["a.b = 1 N", "a.b = 2 N"])).toEqual(["1 N", "2 N"]);
     expect(shortNames(["a.b = 1 N", "Ben"])).toEqual(["a.b = 1 N", "Ben"]);
     expect(shortNames(["a.b = 1 N"])).toEqual(["a.b = 1 N"]);
+  });
+
+  it("has the names and the units of the editor, and other names as they are", () => {
+    const names = ["skin"];
+    expect(runWords("membrane[0].stiffness = 285 N/m", names)).toBe("1 skin: stiffness = 0.285 N/mm");
+    expect(runWords("membrane[0].point[1] = -0.001 m", names)).toBe("1 skin: point y = -1 mm");
+    expect(runWords("needle.tip_angle = 0.209440 rad", names)).toBe("needle: tip angle = 12 deg");
+    expect(runWords("membrane[0].friction = 1e-06 -", names)).toBe("1 skin: friction = 0.000001");
+    for (const name of ["Ann", "a = 3", "2026-11-29 skin = 4 N"]) expect(runWords(name, names)).toBe(name);
+  });
+
+  it("varies each quantity in a unit that a field of the editor has", () => {
+    const tables = sceneForm(schema).tables.flatMap(({ fields }) => fields.map(({ unit }) => unit));
+    for (const si of ["m", "rad", "N/m", "N s/m", "1/m", "N", "Hz"]) expect(tables).toContain(shownUnit(si)[0]);
   });
 
   it("has the first chosen run as its reference, wherever it stands in the list", () => {
