@@ -92,7 +92,7 @@ void bind_experiment(nb::module_& m) {
           "axis: direction of the stylus; default: the first membrane's inward normal. Raises ConfigurationError.")
       .def("run", &AnyExperiment::run, nb::arg("duration"), nb::kw_only(), nb::arg("progress") = nb::none(),
            "Runs the experiment for `duration` seconds more. Returns its ticks, with desired and true_position.\n\n"
-           "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
+           "progress: a function of the finished share, 0 to 1, or True for a bar. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.")
       .def_prop_ro("scene", &AnyExperiment::scene)
       .def_prop_ro("duration", &AnyExperiment::duration, "Duration of the motion, s; 0 for a Target")

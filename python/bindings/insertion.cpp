@@ -55,7 +55,7 @@ void bind_insertion(nb::module_& m) {
       .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
            "Makes n ticks from the present state on.\n\n"
            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
-           "progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. After Ctrl-C some\n"
+           "progress: a function of the finished share, 0 to 1, or True for a bar. After Ctrl-C some\n"
            "ticks were made and are lost; `state` goes back to an earlier tick.");
   const Getters get{insertion};
   get("depths", "Depth of the proxy behind each membrane, last tick, m",

@@ -60,7 +60,7 @@ def simulate(
     Without time each row is one tick. axis (n, 3) or (3,): direction of the needle; default: the first membrane's
     inward normal. Raises ConfigurationError or ValueError. Warns of a depth of more than 0.5 m: the unit is m.
 
-    progress: a function of the finished share, 0 to 1, or True for a bar on a terminal. rivals: force models of other
+    progress: a function of the finished share, 0 to 1, or True for a bar. rivals: force models of other
     authors instead of the scene's law (punctura.rivals), one, or one for each membrane.
     """
     if motion is None:
