@@ -93,18 +93,23 @@ def test_the_package_may_not_import_tests(check, tmp_path):
 
 PYTHON_ROOMS = ("files", "scene", "simulation", "record", "events", "live", "exercise", "reproduce", "studio", "cli")
 PAGE_ROOMS = ("wire", "engine", "state", "hand", "plots", "scene", "controls")
+IMPORTS = [  # folder, ending, and an import of b from another room
+    *(("python/punctura", "py", "from punctura.{} import b\n", *rooms) for rooms in pairwise(PYTHON_ROOMS)),
+    *(("web/src", "ts", 'import "../{}/b.ts";\n', *rooms) for rooms in pairwise(PAGE_ROOMS)),
+]
 
 
-@pytest.mark.parametrize(("higher", "lower"), list(pairwise(PYTHON_ROOMS)))
-def test_a_python_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(check, tmp_path, higher, lower):
+@pytest.mark.parametrize(("folder", "end", "text", "higher", "lower"), IMPORTS)
+def test_an_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(
+    check, tmp_path, folder, end, text, higher, lower
+):
     def found(room: str, other: str) -> list[str]:
-        root = plant(tmp_path / room, **{f"python__punctura__{other}__b_dot_py": ""})
-        plant(root, **{f"python__punctura__{room}__a_dot_py": f"from punctura.{other} import b\n"})
-        return found_by(check("rooms"), root)
+        files = {f"{folder}/{other}/b.{end}": "", f"{folder}/{room}/a.{end}": text.format(other)}
+        return found_by(check("rooms"), plant(tmp_path / room, **files))
 
     assert found(lower, higher) == []
     assert found(higher, lower) == [
-        f"python/punctura/{higher}/a.py:1: python/punctura/{higher} may not import python/punctura/{lower}/b.py, "
+        f"{folder}/{higher}/a.{end}:1: {folder}/{higher} may not import {folder}/{lower}/b.{end}, "
         "which is in a lower room"
     ]
 
@@ -140,19 +145,6 @@ def test_an_import_from_punctura_counts_for_the_module_that_has_the_name(check, 
     assert found_by(check("rooms"), root) == [
         "python/punctura/scene/a.py:1: python/punctura/scene may not import python/punctura/__init__.py, "
         "which is in a lower room"
-    ]
-
-
-@pytest.mark.parametrize(("higher", "lower"), list(pairwise(PAGE_ROOMS)))
-def test_a_page_import_of_a_lower_room_is_found_and_one_of_a_higher_room_is_not(check, tmp_path, higher, lower):
-    def found(room: str, other: str) -> list[str]:
-        root = plant(tmp_path / room, **{f"web__src__{other}__b_dot_ts": "export const b = 1;\n"})
-        plant(root, **{f"web__src__{room}__a_dot_ts": f'import {{ b }} from "../{other}/b.ts";\n'})
-        return found_by(check("rooms"), root)
-
-    assert found(lower, higher) == []
-    assert found(higher, lower) == [
-        f"web/src/{higher}/a.ts:1: web/src/{higher} may not import web/src/{lower}/b.ts, which is in a lower room"
     ]
 
 
