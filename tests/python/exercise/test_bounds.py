@@ -54,8 +54,8 @@ def test_the_needle_waits_near_the_scene_and_in_front_of_it(write, given, bound)
 @pytest.mark.parametrize("given", [[0, 0, 0], [1e300, 0, 0], [1e-12, 0, 0]])
 def test_a_heading_is_a_direction(write, given):
     head = HEAD.replace(SPACE, f"angle_deg = 30\nheading = {given}\n{SPACE}")
-    told = problem(write(goal("reach"), head=head))
-    assert told == ("start.heading", given, "must be a direction whose length is from 0.001 to 1000")
+    found = problem(write(goal("reach"), head=head))
+    assert found == ("start.heading", given, "must be a direction whose length is from 0.001 to 1000")
 
 
 @pytest.mark.parametrize(
@@ -68,16 +68,16 @@ def test_a_heading_is_a_direction(write, given):
     ],
 )
 def test_a_space_is_as_wide_and_as_deep_as_a_needle_can_tell(write, space, path, value, bound):
-    told = problem(write(goal("reach"), head=DEPTHS.replace(SPACE, f"{SPACE}\n{space}")))
-    assert told[:2] == (f"space.{path}", value) and told.reason.startswith(bound)
+    found = problem(write(goal("reach"), head=DEPTHS.replace(SPACE, f"{SPACE}\n{space}")))
+    assert found[:2] == (f"space.{path}", value) and found.reason.startswith(bound)
 
 
 def test_walls_that_touch_leave_no_space(write):
     skin = load_scene("venipuncture").membranes[0]
     head = HEAD.replace('in_front_of = "back vein wall"', f'in_front_of = "{skin.name}"')
-    told = problem(write(goal("reach"), head=head))
-    assert told.path == "space.in_front_of"
-    assert told.reason.startswith("does not begin behind the front vein wall; the space between them must be at least")
+    found = problem(write(goal("reach"), head=head))
+    assert found.path == "space.in_front_of"
+    assert found.reason.startswith("does not begin behind the front vein wall; the space between them must be at least")
 
 
 def test_a_depth_on_the_bound_is_no_problem(write):

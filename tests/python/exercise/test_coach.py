@@ -39,8 +39,8 @@ STOP = goal("stop_after_pop", membrane="skin", within_mm=1)
 def test_a_hand_that_still_pushes_when_the_wall_gives_is_told_the_force_and_how_far_it_went(write):
     # 2 mm/s up to the pop; then the needle springs on by 3.7 mm in 0.2 s.
     jump = way((-SKIN_POPS - 0.01, 2), (-SKIN_POPS - 3.7, 18.5), (-SKIN_POPS - 3.7, 0, 1))
-    said = coached(write, jump, STOP, REACH, head=DEEP)
-    remark = said.change[0]
+    tips = coached(write, jump, STOP, REACH, head=DEEP)
+    remark = tips.change[0]
     assert remark.about == "stop"
     skin = pn.ThickLaw(SCENE.needle, SCENE.membranes[0].membrane)
     front = pn.ThickLaw(SCENE.needle, SCENE.membranes[1].membrane)
@@ -55,37 +55,37 @@ def test_a_hand_that_still_pushes_when_the_wall_gives_is_told_the_force_and_how_
 
 
 def test_a_fast_hand_is_told_its_speed(write):
-    said = coached(write, way((-9, 25)), STOP, REACH, head=DEEP)
-    assert said.change[0].numbers["speed_m_s"] == pytest.approx(25e-3, rel=0.01)
-    assert "You moved at 25 mm/s when the skin gave way, and went " in said.change[0].text
-    assert said.change[0].text.endswith("too far: push more slowly when the resistance grows.")
+    tips = coached(write, way((-9, 25)), STOP, REACH, head=DEEP)
+    assert tips.change[0].numbers["speed_m_s"] == pytest.approx(25e-3, rel=0.01)
+    assert "You moved at 25 mm/s when the skin gave way, and went " in tips.change[0].text
+    assert tips.change[0].text.endswith("too far: push more slowly when the resistance grows.")
 
 
 def test_a_firm_stop_went_well(write):
     firm = way((-SKIN_POPS - 0.3, 4), (-SKIN_POPS - 0.3, 0, 1), (-6, 4), (-6, 0, 3))
-    said = coached(write, firm, STOP, STAY)
-    assert "stop" not in about(said.change)
+    tips = coached(write, firm, STOP, STAY)
+    assert "stop" not in about(tips.change)
     assert (
-        about(said.good)["stop"] == "You stopped well: only 0.3 mm past the skin when it gave way; 1.0 mm are allowed."
+        about(tips.good)["stop"] == "You stopped well: only 0.3 mm past the skin when it gave way; 1.0 mm are allowed."
     )
 
 
 def test_a_stop_that_was_close_is_told_though_it_passed(write):
     close = way((-SKIN_POPS - 0.9, 4), (-SKIN_POPS - 0.9, 0, 1), (-6, 4), (-6, 0, 3))
-    said = coached(write, close, STOP, STAY)
-    assert about(said.change)["stop"].startswith("You went 0.9 mm past the skin when it gave way; 1.0 mm are allowed: ")
-    assert "stop" not in about(said.good)
+    tips = coached(write, close, STOP, STAY)
+    assert about(tips.change)["stop"].startswith("You went 0.9 mm past the skin when it gave way; 1.0 mm are allowed: ")
+    assert "stop" not in about(tips.good)
 
 
 def test_going_through_the_wall_behind_is_told_with_speed_and_force(write):
     never = goal("never_pass", membrane="back vein wall")
-    said = coached(write, way((-12, 12)), STAY, never)
-    remark = said.change[0]
+    tips = coached(write, way((-12, 12)), STAY, never)
+    remark = tips.change[0]
     assert remark.about == "through" and remark.numbers["speed_m_s"] == pytest.approx(12e-3, rel=0.01)
     assert remark.text.startswith("You still moved in at 12 mm/s, against ")
     assert remark.text.endswith("through the back vein wall: push more slowly, so that you have time to stop.")
-    said = coached(write, way((-7, 12), (-7, 0, 1), (-12, 12)), goal("stay", seconds=9), never)
-    assert said.change[0].text.endswith(" s after you reached the vein: draw back when the force grows.")
+    tips = coached(write, way((-7, 12), (-7, 0, 1), (-12, 12)), goal("stay", seconds=9), never)
+    assert tips.change[0].text.endswith(" s after you reached the vein: draw back when the force grows.")
     assert "through" not in about(coached(write, way((-7, 12), (-7, 0, 3)), STAY, never).change)
 
 
@@ -98,20 +98,20 @@ def test_too_much_force_is_told_with_the_largest_one(write):
     assert about(gentle.good)["force"].startswith("You never pushed with more than 0.")
 
 
-@pytest.mark.parametrize(("degrees", "said"), [(78, "hold the needle 12 degrees steeper"), (86.5, None), (89, None)])
-def test_the_angle_of_entry(write, degrees, said):
+@pytest.mark.parametrize(("degrees", "tips"), [(78, "hold the needle 12 degrees steeper"), (86.5, None), (89, None)])
+def test_the_angle_of_entry(write, degrees, tips):
     columns = of_positions(SCENE, way((-1, 5), (-1, 0, 1.5), (-7, 5)))  # a pause, so that the angle is among the best
     slanted = np.array([np.cos(np.radians(degrees)), -np.sin(np.radians(degrees)), 0])
     columns["direction"] = np.tile(slanted, (*columns["depth"].shape, 1))
     words = coached(write, columns, goal("reach", depth_mm=1))
-    assert (said or "") in about(words.change).get("angle", "")
-    assert ("angle" in about(words.change)) == (said is not None)
+    assert (tips or "") in about(words.change).get("angle", "")
+    assert ("angle" in about(words.change)) == (tips is not None)
     assert ("angle" in about(words.good)) == (degrees == 89)
 
 
 def test_a_needle_that_stays_short_of_the_space_is_told_by_how_much(write):
-    said = coached(write, way((-4, 5), (-4, 0, 1)), REACH)
-    assert about(said.change)["short"] == (
+    tips = coached(write, way((-4, 5), (-4, 0, 1)), REACH)
+    assert about(tips.change)["short"] == (
         "The point stayed 1.2 mm or more away from the vein: push on until you notice the flash-back."
     )
     assert "short" not in about(coached(write, way((-6, 5)), REACH).change)
@@ -119,9 +119,9 @@ def test_a_needle_that_stays_short_of_the_space_is_told_by_how_much(write):
 
 def test_a_tip_that_is_only_partly_in_the_space_is_told_how_much_is_outside(write):
     half = way((-7, 5), (-7, 0, 3))
-    said = coached(write, half, REACH, goal("stay", seconds=2, whole_tip=True), head=DEEP)
+    tips = coached(write, half, REACH, goal("stay", seconds=2, whole_tip=True), head=DEEP)
     outside = 5.21 + SKIN_POPS - 1.2 - 7
-    assert about(said.change)["short"].startswith(
+    assert about(tips.change)["short"].startswith(
         f"The point was in the vein, but the end of the tip was still {outside:.1f} mm outside"
     )
     whole = coached(write, way((-10, 5), (-10, 0, 3)), goal("stay", seconds=2, whole_tip=True), head=DEEP)
@@ -129,25 +129,25 @@ def test_a_tip_that_is_only_partly_in_the_space_is_told_how_much_is_outside(writ
 
 
 def test_pressing_on_the_wall_behind_is_told_with_time_and_depth(write):
-    said = coached(write, way((-8.5, 5), (-8.5, 0, 1.5), (-7, 5)), goal("stay", seconds=9))
-    assert about(said.change)["pressed"].startswith(
+    tips = coached(write, way((-8.5, 5), (-8.5, 0, 1.5), (-7, 5)), goal("stay", seconds=9))
+    assert about(tips.change)["pressed"].startswith(
         "You were against the back vein wall for 1.6 s, up to 0.3 mm behind"
     )
     assert "pressed" not in about(coached(write, way((-8, 5), (-8, 0, 1.5)), goal("stay", seconds=9)).change)
 
 
 def test_leaving_the_space_is_told_with_the_longest_stay(write):
-    said = coached(write, way((-6, 5), (-6, 0, 1.2), (-4, 5), (-6, 5), (-6, 0, 0.4)), goal("stay", seconds=3))
+    tips = coached(write, way((-6, 5), (-6, 0, 1.2), (-4, 5), (-6, 5), (-6, 0, 0.4)), goal("stay", seconds=3))
     assert (
-        "You left the vein once before you had held for 3 s; your longest stay was 1.5 s" in about(said.change)["left"]
+        "You left the vein once before you had held for 3 s; your longest stay was 1.5 s" in about(tips.change)["left"]
     )
     assert "left" not in about(coached(write, way((-6, 5), (-6, 0, 3)), STAY).change)
 
 
 def test_entering_again_is_told_where_entries_count(write):
     again = way((-2, 5), (2, 5), (-2, 5), (2, 5), (-6, 5))
-    said = coached(write, again, REACH, goal("entries", at_most=3))
-    assert about(said.change)["entries"].startswith("You came out of the skin and entered again twice: ")
+    tips = coached(write, again, REACH, goal("entries", at_most=3))
+    assert about(tips.change)["entries"].startswith("You came out of the skin and entered again twice: ")
     assert "entries" not in about(coached(write, again, REACH).change)
     assert "entries" not in about(coached(write, way((-6, 5)), REACH, goal("entries", at_most=3)).change)
 
@@ -161,35 +161,35 @@ def shaken(rms, drift=0.0):
 
 
 @pytest.mark.parametrize(
-    ("rms", "told", "praised"), [(0.25e-3, True, False), (0.1e-3, False, False), (2e-5, False, True)]
+    ("rms", "named", "praised"), [(0.25e-3, True, False), (0.1e-3, False, False), (2e-5, False, True)]
 )
-def test_tremor_while_holding_is_measured(write, rms, told, praised):
-    said = coached(write, shaken(rms), goal("stay", seconds=3.5))
-    assert ("tremor" in about(said.change), "tremor" in about(said.good)) == (told, praised)
-    if told:
-        assert said.change[0].numbers["tremor_m"] == pytest.approx(rms, rel=0.05)
+def test_tremor_while_holding_is_measured(write, rms, named, praised):
+    tips = coached(write, shaken(rms), goal("stay", seconds=3.5))
+    assert ("tremor" in about(tips.change), "tremor" in about(tips.good)) == (named, praised)
+    if named:
+        assert tips.change[0].numbers["tremor_m"] == pytest.approx(rms, rel=0.05)
 
 
 def test_drift_while_holding_is_not_tremor(write):
-    said = coached(write, shaken(0, drift=2e-3), goal("stay", seconds=3.5))
-    assert "tremor" not in about(said.change)
-    assert about(said.change)["drift"].startswith("The tip drifted by 2.0 mm while you held for 3.5 s")
+    tips = coached(write, shaken(0, drift=2e-3), goal("stay", seconds=3.5))
+    assert "tremor" not in about(tips.change)
+    assert about(tips.change)["drift"].startswith("The tip drifted by 2.0 mm while you held for 3.5 s")
     assert "drift" not in about(coached(write, shaken(0, drift=1e-3), goal("stay", seconds=3.5)).change)
 
 
 def test_pauses_on_the_way_are_counted_and_timed(write):
     halting = way((-1, 5), (-1, 0, 2), (-3, 5), (-3, 0, 1.5), (-6, 5))
-    said = coached(write, halting, REACH)
-    assert about(said.change)["pauses"].startswith("You stood still twice in the tissue on the way, for 3.")
-    assert "pauses" not in about(said.good)
+    tips = coached(write, halting, REACH)
+    assert about(tips.change)["pauses"].startswith("You stood still twice in the tissue on the way, for 3.")
+    assert "pauses" not in about(tips.good)
     steady = coached(write, way((3, 5), (3, 0, 3), (-6, 2)), REACH)  # waiting in front of the skin is no pause
     assert "pauses" not in about(steady.change) and "pauses" in about(steady.good)
 
 
 def test_the_way_to_the_side_is_measured(write):
     crooked = ideal(SCENE, (0, 5, 0), (0, -3, 0), (2, -3, 0), (2, -6, 0))
-    said = coached(write, crooked, REACH)
-    assert about(said.change)["aside"] == (
+    tips = coached(write, crooked, REACH)
+    assert about(tips.change)["aside"] == (
         "The tip went up to 2.0 mm to the side of its line of entry: push along the needle."
     )
     straight = coached(write, way((-6, 5)), REACH)
@@ -202,23 +202,23 @@ def test_at_most_three_of_each_and_the_most_important_first(write):
     columns = of_positions(SCENE, bad)
     columns["direction"][:] = [np.cos(1.3), -np.sin(1.3), 0]  # 74 degrees
     goals = goal("never_pass", membrane="back vein wall"), goal("entries", at_most=3)
-    said = coached(write, columns, STAY, *goals)
-    assert [remark.about for remark in said.change] == ["through", "angle", "entries"]
+    tips = coached(write, columns, STAY, *goals)
+    assert [remark.about for remark in tips.change] == ["through", "angle", "entries"]
     columns["direction"][:] = [0, -1, 0]
-    said = coached(write, columns, STAY, *goals)
-    assert [remark.about for remark in said.change] == ["through", "entries", "pauses"]
+    tips = coached(write, columns, STAY, *goals)
+    assert [remark.about for remark in tips.change] == ["through", "entries", "pauses"]
 
 
 BESIDE = goal("on_line", point_mm=[0, -6.7, 4], along=[1, 0, 0], within_mm=1)
 
 
 def test_no_praise_contradicts_what_is_to_change(write):
-    said = coached(write, way((-7, 5), (-7, 0, 3)), STAY, BESIDE)
-    assert said.change[0].text.startswith("The point was 4.0 mm beside the middle line")
-    assert about(said.good).keys() == {"angle"}  # straight, steady, and beside the vein
+    tips = coached(write, way((-7, 5), (-7, 0, 3)), STAY, BESIDE)
+    assert tips.change[0].text.startswith("The point was 4.0 mm beside the middle line")
+    assert about(tips.good).keys() == {"angle"}  # straight, steady, and beside the vein
     left = way((-6, 5), (-6, 0, 1.2), (-4, 5), (-6, 5), (-6, 0, 0.4))
-    said = coached(write, left, goal("stay", seconds=3))
-    assert "left" in about(said.change) and "tremor" not in about(said.good)
+    tips = coached(write, left, goal("stay", seconds=3))
+    assert "left" in about(tips.change) and "tremor" not in about(tips.good)
 
 
 LIMITS = [
@@ -231,17 +231,17 @@ LIMITS = [
 
 @pytest.mark.parametrize(("limit", "position", "subject", "when"), LIMITS)
 def test_the_first_thing_to_change_is_what_decided_with_its_moment(write, limit, position, subject, when):
-    said = coached(write, position, STAY, limit)
-    assert said.change[0].about == subject
-    assert said.change[0].time == pytest.approx(when, abs=0.05)
-    assert len(about(said.change)) == len(said.change)  # each thing once
+    tips = coached(write, position, STAY, limit)
+    assert tips.change[0].about == subject
+    assert tips.change[0].time == pytest.approx(when, abs=0.05)
+    assert len(about(tips.change)) == len(tips.change)  # each thing once
 
 
 def test_the_words_do_not_depend_on_how_ticks_are_cut(write):
     bad = way((-1, 5), (-1, 0, 3), (-9, 30))
     never = goal("never_pass", membrane="back vein wall")
-    said = [coached(write, bad, STAY, STOP, never, cuts=cuts) for cuts in (7, 160, 100_000)]
-    assert said[0].change and said[0] == said[1] == said[2]
+    tips = [coached(write, bad, STAY, STOP, never, cuts=cuts) for cuts in (7, 160, 100_000)]
+    assert tips[0].change and tips[0] == tips[1] == tips[2]
 
 
 def test_nothing_is_said_without_an_entry_or_after_a_fault(write):
@@ -255,8 +255,8 @@ def test_nothing_is_said_without_an_entry_or_after_a_fault(write):
 def test_missing_readings_make_no_numbers_up(write):
     position = way((-9, 25))
     position[np.arange(len(position)) % 2 == 1] = np.nan
-    said = coached(write, position, STOP, REACH, head=DEEP)
-    assert all(np.isfinite(value) for remark in [*said.good, *said.change] for value in remark.numbers.values())
+    tips = coached(write, position, STOP, REACH, head=DEEP)
+    assert all(np.isfinite(value) for remark in [*tips.good, *tips.change] for value in remark.numbers.values())
 
 
 @pytest.mark.parametrize("scale, limit, unit", [(1, 0, " N"), (0.3, 0, " N (model force)"), (1, 2, " N (model force)")])
@@ -264,7 +264,7 @@ def test_a_force_that_the_hand_did_not_get_is_called_model_force(write, scale, l
     position = way((-6, 4), (-6, 0, 3))
     n = len(position)
     columns = {"force_scale": np.full(n, float(scale)), "limit": np.full(n, limit, np.uint8)}
-    said = coached(write, position, goal("peak_force", at_most_N=5), REACH, head=DEEP, **columns)
-    force = about(said.good)["force"].removeprefix("You never pushed with more than ")
+    tips = coached(write, position, goal("peak_force", at_most_N=5), REACH, head=DEEP, **columns)
+    force = about(tips.good)["force"].removeprefix("You never pushed with more than ")
     number, rest = force[:4], force[4:]
     assert float(number) > 0.1 and rest == f"{unit}; 5.00 N are allowed."

@@ -123,8 +123,8 @@ def test_a_space_between_a_membrane_and_itself_is_none(write):
 def test_a_scene_that_is_not_there_or_is_wrong_is_reported(write, tmp_path):
     assert "no such file" in problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
     (tmp_path / "mine.toml").write_text("name = 'x'\n")
-    told = problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
-    assert "needle" in told and "membrane" in told
+    refusal = problems(write(goal("reach"), head=HEAD.replace('"venipuncture"', '"mine.toml"')))["scene"]
+    assert "needle" in refusal and "membrane" in refusal
 
 
 def test_a_scene_may_lie_beside_the_exercise(write, tmp_path):

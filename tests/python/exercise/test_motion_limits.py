@@ -66,8 +66,8 @@ GOALS = {
 def test_it_is_met_or_missed_with_a_reason(write, kind, cuts):
     asked, good, bad, reason = GOALS[kind]
     assert of(write, good(), asked, cuts)[0] == "met"
-    state, said, _ = of(write, bad(), asked, cuts)
-    assert state == "missed" and said.startswith(reason)
+    state, reason_given, _ = of(write, bad(), asked, cuts)
+    assert state == "missed" and reason_given.startswith(reason)
 
 
 @pytest.mark.parametrize("kind", GOALS)
@@ -79,8 +79,8 @@ def test_without_readings_it_is_not_measured(write, kind):
         keep = np.ones(len(columns["tick"]), dtype=bool)
         keep[1200:1300] = False
         columns = {name: column[keep] for name, column in columns.items()}
-    state, said, text = of(write, columns, GOALS[kind][0])
-    assert state == "not measured" and f"Not measured: “{text}”" in said
+    state, reason_given, text = of(write, columns, GOALS[kind][0])
+    assert state == "not measured" and f"Not measured: “{text}”" in reason_given
 
 
 def test_the_angle_and_the_depth_are_those_of_the_start_and_of_the_space_if_left_out(write):

@@ -38,8 +38,8 @@ def abouts(made):
 def test_a_stall_on_the_way_is_no_pause_of_the_student(write, cuts):
     late, still = stalled(3.1, (0, 5, 0), (0, -3, 0), (0, -7, 0))
     stay = goal("stay", seconds=0.5)
-    blamed = result(write, still, stay, cuts=cuts)
-    assert "pauses" in abouts(blamed) and "page" not in " ".join(blamed.reasons)
+    judged_late = result(write, still, stay, cuts=cuts)
+    assert "pauses" in abouts(judged_late) and "page" not in " ".join(judged_late.reasons)
     asked = stay, goal("no_pause", seconds=1)
     assert not result(write, still, *asked, cuts=cuts).passed
     made = result(write, late, stay, cuts=cuts)

@@ -68,9 +68,9 @@ class ByKeys:
         device = Experiment(scene, Target(target), axis=axis)
         attempt, ticks, self.heard = Attempt(exercise, scene), 0, []
         while ticks < seconds * scene.servo.rate and not attempt.over:
-            told = attempt.status.instruction if ticks >= self.blind_s * scene.servo.rate else ""
-            self.heard += [told] if told not in self.heard else []
-            target = target + self._key(told, axis)
+            task = attempt.status.instruction if ticks >= self.blind_s * scene.servo.rate else ""
+            self.heard += [task] if task not in self.heard else []
+            target = target + self._key(task, axis)
             device.move_to(target)
             trace = device.run(1 / self.TURNS)
             n = len(trace.time)
@@ -80,14 +80,14 @@ class ByKeys:
             ticks += n
         return attempt.finish()
 
-    def _key(self, told, axis):
-        if "Hold still" in told:
+    def _key(self, task, axis):
+        if "Hold still" in task:
             return 0 * axis
-        if "draw back" in told:
+        if "draw back" in task:
             return -0.25e-3 * axis
-        if "draw it out" in told:
+        if "draw it out" in task:
             return -1e-3 * axis
-        way = next((np.array(way) for word, way in WAYS.items() if word in told), None)
+        way = next((np.array(way) for word, way in WAYS.items() if word in task), None)
         return 0.25e-3 * (axis if way is None else way)
 
 

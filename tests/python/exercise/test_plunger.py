@@ -66,8 +66,8 @@ def test_a_thumb_that_pushes_on_fails_and_is_told_its_force_and_the_volume():
 def test_a_thumb_that_rests_does_not_pass_and_is_told_to_go_back_and_push():
     attempt = attempted(newtons=0.0)
     assert not attempt.over
-    told = "Draw back into the ligamentum flavum, push the plunger with at least 2 N, and go on."
-    assert attempt.status.instruction == told
+    beginning = "Draw back into the ligamentum flavum, push the plunger with at least 2 N, and go on."
+    assert attempt.status.instruction == beginning
     result = attempt.finish()
     assert "you pushed it with 0.0 N when the point came out behind the ligamentum flavum" in " ".join(result.reasons)
     assert result.metrics.yields == []
@@ -81,11 +81,11 @@ def test_a_thumb_that_begins_in_the_space_has_felt_no_loss():
 
 def test_a_syringe_that_is_emptied_in_the_air_is_told_at_once_and_at_the_end():
     columns = with_thumb(hand_run("epidural", LEGS), -10.0, 4.0, NEVER)
-    told = "The syringe is empty: end this attempt and try again. Push the plunger only in the tissue in front of"
+    beginning = "The syringe is empty: end this attempt and try again. Push the plunger only in the tissue in front of"
     before_the_skin = {name: values[:1600] for name, values in columns.items()}
-    assert judged(load_exercise(NAME), before_the_skin).status.instruction.startswith(told)
+    assert judged(load_exercise(NAME), before_the_skin).status.instruction.startswith(beginning)
     attempt = judged(load_exercise(NAME), columns)
-    assert not attempt.over and attempt.status.instruction.startswith(told)
+    assert not attempt.over and attempt.status.instruction.startswith(beginning)
     result = attempt.finish()
     assert "The syringe was empty before the plunger could give way behind the ligamentum flavum." in result.reasons
     remark = about(result.coaching.change)["plunger"]
@@ -188,6 +188,6 @@ def test_a_loss_that_the_second_device_cannot_show_is_not_passed_and_says_why():
     assert not result.passed and set(states(result).values()) == {"met"}
     (gave,) = result.metrics.yields
     assert 0.02 < gave.loss.drop < 0.1 == gave.loss.needed
-    told = "Not judged as passed: the second device could not show the loss of resistance of the plunger (0.0"
-    assert [reason for reason in result.reasons if reason.startswith(told)]
+    beginning = "Not judged as passed: the second device could not show the loss of resistance of the plunger (0.0"
+    assert [reason for reason in result.reasons if reason.startswith(beginning)]
     assert result.verdict.startswith("not judged as passed: the device could not show the loss of resistance (0.0")

@@ -17,7 +17,7 @@ def states(result):
     return {goal.text.split(":")[0]: goal.state for goal in result.goals}
 
 
-def said(result):
+def reasons_of(result):
     return " ".join(result.reasons)
 
 
@@ -59,7 +59,7 @@ def test_each_can_be_passed(name, legs):
 )
 def test_each_can_be_failed(name, legs, reason):
     result = tried(name, WAIT, *legs)
-    assert not result.passed and said(result).startswith(reason), result.reasons
+    assert not result.passed and reasons_of(result).startswith(reason), result.reasons
 
 
 @pytest.mark.parametrize(("aside", "passed"), [(0.0, False), (4.0, True)])
@@ -81,8 +81,8 @@ def test_venipuncture_can_be_passed(seed):
     assert result.passed, result.reasons
     assert set(states(result).values()) == {"met"}
     assert [e.name for e in result.events if e.what == "pop"] == ["skin", "front vein wall"]
-    assert "You reached the vein" in said(result) and "at the first entry" in said(result)
-    assert "stayed in it for 3.0 s" in said(result)
+    assert "You reached the vein" in reasons_of(result) and "at the first entry" in reasons_of(result)
+    assert "stayed in it for 3.0 s" in reasons_of(result)
     assert result.metrics.entries == 1
     assert 3.0 <= result.metrics.dwell < 8
     assert 0.5 < result.metrics.peak_force < 1.2
@@ -105,22 +105,22 @@ def test_through_the_back_wall():
     result = tried("venipuncture", *INTO_THE_VEIN[:2], (2.0, 33.0), (3.0, 33.0))
     assert not result.passed
     assert states(result)["Do not go through the back vein wall"] == "missed"
-    assert said(result).startswith("You went through the back vein wall ")
-    assert said(result).endswith(" s after the flash-back.")
+    assert reasons_of(result).startswith("You went through the back vein wall ")
+    assert reasons_of(result).endswith(" s after the flash-back.")
     assert "back vein wall" not in [e.name for e in result.events if e.what == "pop"]  # the point is through, no more
 
 
 def test_the_vein_is_never_reached():
     result = tried("venipuncture", WAIT, (2.0, 16.0), (2.0, 16.0))
     assert not result.passed
-    assert said(result) == "You did not reach the vein."
+    assert reasons_of(result) == "You did not reach the vein."
     assert result.metrics.time_to_target is None
     assert set(states(result).values()) == {"open"}
 
 
 def test_the_skin_is_never_touched():
     result = tried("venipuncture", WAIT, (1.0, 5.0))
-    assert said(result) == "You did not touch the skin."
+    assert reasons_of(result) == "You did not touch the skin."
     assert (result.metrics.entries, result.metrics.total_time, result.events) == (0, 0.0, [])
 
 
@@ -128,13 +128,13 @@ def test_not_staying_in_the_vein():
     result = tried("venipuncture", *INTO_THE_VEIN[:3], (2.0, 27.8), (1.0, 0.0))
     assert not result.passed
     assert states(result)["Reach the vein"] == "met"
-    assert "You stayed in the vein for " in said(result) and "the goal is 3 s" in said(result)
+    assert "You stayed in the vein for " in reasons_of(result) and "the goal is 3 s" in reasons_of(result)
 
 
 def test_with_the_point_alone_in_the_vein_the_hold_does_not_begin():
     result = tried("venipuncture", *INTO_THE_VEIN[:2], (1.5, 24.0), (5.0, 24.0))
     assert not result.passed
-    assert said(result) == "The whole tip was never in the vein."
+    assert reasons_of(result) == "The whole tip was never in the vein."
     assert result.metrics.dwell == result.metrics.longest_stay == 0  # of the whole tip, as the goal asks
     assert result.metrics.time_to_target is not None
 
@@ -150,7 +150,7 @@ def test_too_many_entries():
     result = tried("venipuncture", WAIT, *tries)
     assert not result.passed
     assert result.metrics.entries == 4
-    assert said(result) == "You entered more than 3 times."
+    assert reasons_of(result) == "You entered more than 3 times."
 
 
 @pytest.mark.parametrize(("name", "limit", "mm"), [("venipuncture", 60, 16.0), ("epidural", 120, 20.0)])
@@ -158,29 +158,29 @@ def test_the_time_is_over(name, limit, mm):
     columns = hand_run(name, (WAIT, (2.0, mm), (limit + 2.0, mm)))
     result = judged(load_exercise(name), columns, cuts=4000).finish()
     assert not result.passed
-    assert said(result) == f"The time ran out {limit} s after the first contact."
+    assert reasons_of(result) == f"The time ran out {limit} s after the first contact."
     assert result.metrics.total_time == pytest.approx(limit, abs=0.01)
 
 
 def test_running_on_when_the_flavum_gives_way():
     result = tried("epidural", WAIT, (6.0, 47.0), (1.5, 67.0), (2.0, 67.0))
     assert not result.passed
-    assert said(result).startswith("You ran more than 2.5 mm past the ligamentum flavum when it gave way")
-    assert "through the dura" not in said(result)
+    assert reasons_of(result).startswith("You ran more than 2.5 mm past the ligamentum flavum when it gave way")
+    assert "through the dura" not in reasons_of(result)
 
 
 def test_through_the_dura():
     result = tried("epidural", *INTO_THE_SPACE[:3], (1.0, 58.3), (6.0, 76.0), (2.0, 76.0))
     assert not result.passed
-    assert said(result).startswith("You went through the dura ")
-    assert said(result).endswith(" s after the loss of resistance.")
+    assert reasons_of(result).startswith("You went through the dura ")
+    assert reasons_of(result).endswith(" s after the loss of resistance.")
     assert result.events[-1].name == "dura" and result.events[-1].what == "pop"
 
 
 def test_the_epidural_space_is_never_reached():
     result = tried("epidural", WAIT, (6.0, 50.0), (2.0, 50.0))
     assert not result.passed
-    assert "You did not reach the epidural space." in said(result)
+    assert "You did not reach the epidural space." in reasons_of(result)
 
 
 def test_who_has_gone_too_far_may_draw_back():

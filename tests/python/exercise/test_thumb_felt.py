@@ -68,11 +68,11 @@ def test_a_loss_that_no_thumb_could_feel_is_not_passed_and_the_reason_is_told(sc
     made = result(on_device(scale, most, newtons))
     assert {each.state for each in made.goals} == {"met"} and not made.passed
     assert made.verdict.startswith(f"not judged as passed: the device could not show the loss of resistance ({drop};")
-    (told,) = [reason for reason in made.reasons if reason.startswith("Not judged as passed")]
+    (refusal,) = [reason for reason in made.reasons if reason.startswith("Not judged as passed")]
     assert (
-        "the second device could not show the loss of resistance of the plunger" in told
-        and f"({drop};" in told
-        and why in told
+        "the second device could not show the loss of resistance of the plunger" in refusal
+        and f"({drop};" in refusal
+        and why in refusal
     )
 
 
@@ -154,7 +154,7 @@ def test_the_verdict_waits_until_a_thumb_could_react(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("scale", "thumb", "told"),
+    ("scale", "thumb", "expected"),
     [
         (1.0, OMNI, ""),
         (1.0, None, "The thumb is a key here and feels nothing"),
@@ -163,10 +163,10 @@ def test_the_verdict_waits_until_a_thumb_could_react(tmp_path):
         (0.05, OMNI, "At the force scale of 0.05, push the plunger with clearly more than 2.5 N"),
     ],
 )
-def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb, told):
+def test_the_list_says_before_the_start_what_the_thumb_cannot_feel(scale, thumb, expected):
     scene = SCENE.replace(display=DisplaySettings(scale))
-    said = thumb_cannot_show(EXERCISE, scene, OMNI, thumb)
-    assert said.startswith(told) and bool(said) == bool(told), said
+    warning = thumb_cannot_show(EXERCISE, scene, OMNI, thumb)
+    assert warning.startswith(expected) and bool(warning) == bool(expected), warning
 
 
 def test_the_push_that_is_named_before_the_start_is_no_more_than_what_is_needed():
@@ -177,10 +177,10 @@ def test_the_push_that_is_named_before_the_start_is_no_more_than_what_is_needed(
 
 @pytest.mark.parametrize("second", [True, False])
 def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, monkeypatch, second):
-    told = []
+    devices = []
 
     def attempt(exercise, scene, second_device):
-        told.append(second_device)
+        devices.append(second_device)
         return Attempt(exercise, scene, second_device)
 
     monkeypatch.setattr(sys.modules["punctura.exercise.load"], "Attempt", attempt)
@@ -191,7 +191,7 @@ def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, mon
         loop.start()
         wait_until(lambda: len(loop.latest()))
         loop.stop()
-    assert not score(file, EXERCISE).passed and told == [second]
+    assert not score(file, EXERCISE).passed and devices == [second]
 
 
 def test_exercises_without_the_plunger_say_nothing_about_the_thumb():

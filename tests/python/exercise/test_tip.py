@@ -14,8 +14,8 @@ def warned(write, *goals, head=OPEN, space=""):
 
 
 def test_a_depth_that_is_reached_before_the_pop_gives_a_warning(write):
-    told = warned(write, goal("stay", seconds=1), goal("reach", depth_mm=3))
-    assert told == {
+    noted = warned(write, goal("stay", seconds=1), goal("reach", depth_mm=3))
+    assert noted == {
         "goal[1]": "is met before the front vein wall pops: the point is then 3 mm past it, and the tip is 4.12 mm "
         "long in this direction; add whole_tip = true if all of the tip must be past it"
     }

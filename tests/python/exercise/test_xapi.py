@@ -16,24 +16,24 @@ GIVEN_UP = tried("venipuncture", WAIT, (2.0, 16.0), (2.0, 16.0))
 
 @pytest.mark.parametrize(("result", "verb"), [(PASSED, "passed"), (FAILED, "failed"), (GIVEN_UP, "attempted")])
 def test_the_verb_says_how_the_attempt_ended(result, verb):
-    said = statement(result)
-    assert said["verb"] == {"id": f"http://adlnet.gov/expapi/verbs/{verb}", "display": {"en": verb}}
-    assert said["result"].get("success") == {"passed": True, "failed": False, "attempted": None}[verb]
-    assert said["result"]["completion"] == (verb != "attempted")
+    record = statement(result)
+    assert record["verb"] == {"id": f"http://adlnet.gov/expapi/verbs/{verb}", "display": {"en": verb}}
+    assert record["result"].get("success") == {"passed": True, "failed": False, "attempted": None}[verb]
+    assert record["result"]["completion"] == (verb != "attempted")
 
 
 def test_a_statement_has_the_parts_that_the_format_asks_for():
     result = PASSED.model_copy(update={"person": "Ada", "group": "9b", "name": "a-result"})
-    said = statement(result, "https://school.example/")
-    assert uuid.UUID(said["id"]) and said["version"] == "1.0.3"
+    record = statement(result, "https://school.example/")
+    assert uuid.UUID(record["id"]) and record["version"] == "1.0.3"
     account = {"homePage": "https://school.example", "name": "Ada"}
-    assert said["actor"] == {"objectType": "Agent", "name": "Ada", "account": account}
-    assert said["object"]["id"] == "https://school.example/exercises/venipuncture"
-    assert said["context"]["team"]["account"]["name"] == "9b"
-    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", said["timestamp"])
-    assert said["result"]["score"] == {"scaled": 1.0, "raw": 7, "min": 0, "max": 7}
-    assert said["result"]["duration"] == duration(result.metrics.total_time)
-    forces = [value for key, value in said["result"]["extensions"].items() if key.endswith("/peak_force_N")]
+    assert record["actor"] == {"objectType": "Agent", "name": "Ada", "account": account}
+    assert record["object"]["id"] == "https://school.example/exercises/venipuncture"
+    assert record["context"]["team"]["account"]["name"] == "9b"
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", record["timestamp"])
+    assert record["result"]["score"] == {"scaled": 1.0, "raw": 7, "min": 0, "max": 7}
+    assert record["result"]["duration"] == duration(result.metrics.total_time)
+    forces = [value for key, value in record["result"]["extensions"].items() if key.endswith("/peak_force_N")]
     assert forces == [result.metrics.peak_force]
 
 

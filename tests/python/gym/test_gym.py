@@ -286,7 +286,7 @@ def test_wrong_use_is_refused_with_a_sentence():
 
 
 @pytest.mark.parametrize(
-    ("vary", "told"),
+    ("vary", "reported"),
     [
         (3, "vary must be a list"),
         ([("a", 0, 1)], "vary must be a list of punctura.gym.Vary"),
@@ -296,8 +296,8 @@ def test_wrong_use_is_refused_with_a_sentence():
         ([pg.Vary({"coupling.damping": "1"}, 0, 1, "shift")], "the weight of 'coupling.damping' must be a number"),
     ],
 )
-def test_a_population_names_an_argument_of_another_type(vary, told):
-    with pytest.raises(TypeError, match=told):
+def test_a_population_names_an_argument_of_another_type(vary, reported):
+    with pytest.raises(TypeError, match=reported):
         pg.Population(pn.load_scene("k06-fig12"), vary)
     with pytest.raises(TypeError, match=r"scene is 3, not a punctura\.Scene"):
         pg.Population(3)
