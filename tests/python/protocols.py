@@ -1,4 +1,4 @@
-"""Small protocols: their scenes are made without solving, so they load fast."""
+"""Small protocols. Only the scenes of SOLVED are solved for, which takes long."""
 
 from __future__ import annotations
 
@@ -24,6 +24,12 @@ RIGHT = (
     .replace('"constant"', '"quest"')
     .replace("per_level = 20\nblocks = 2", "total = 120")
 )
+ADJUST = (
+    COMPARES.replace("[0.2, 0.3, 0.36, 0.46, 0.52, 0.62]", str([round(0.26 + 0.03 * i, 2) for i in range(11)]))
+    .replace('"constant"', '"adjustment"')
+    .replace('"two_intervals"', '"adjustment"')
+    .replace("per_level = 20", "total = 12")
+)
 YES = """
 title = "Was there a pop?"
 question = "Did it pop?"
@@ -33,12 +39,27 @@ task = "yes_no"
 seed = 4
 [stimulus]
 variable = "membrane[0].thickness"
-levels = [0.0002, 0.001, 0.002, 0.003, 0.004, 0.006]
+levels = [0.0005, 0.0015, 0.0021, 0.0027, 0.0033, 0.0045]
 [trials]
 per_level = 20
 practice = 2
 catch = 30
 catch_level = 0.012
+"""
+SOLVED = """
+title = "Solved"
+question = "Which one fell more?"
+scene = "k06-fig10"
+method = "constant"
+task = "two_intervals"
+[stimulus]
+variable = "drop_N"
+levels = [0.25, 0.3, 0.35]
+reference = 0.3
+solve = "membrane[0].precompression"
+between = [0.0, 1.5]
+[trials]
+per_level = 20
 """
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from punctura.cli._notice import notice
-from punctura.cli._out import check_folder
+from punctura.cli._out import check_folder, check_place
 from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
@@ -138,11 +138,11 @@ def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
 
 
 def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
-    from punctura.perception.report import report_of_folder
+    from punctura.perception.report import json_of, report_of_folder
 
     found = report_of_folder(protocol, folder)
     if as_json:
-        typer.echo(json.dumps(asdict(found), indent=2))
+        typer.echo(json_of(found), nl=False)
         return
     _print(found)
     typer.echo(str(folder / "report.md"))
@@ -155,7 +155,7 @@ def _print(found: Analysis) -> None:
     for name, one in [*lines, ("mean of people", found)]:
         text = f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
         if one.slope is not None:
-            text = f"{words(one.slope)} points for each {found.unit}"
+            text = f"slope {words(one.slope)}"
         typer.echo(f"{name}, {one.reason or text}")
 
 
@@ -177,8 +177,8 @@ def power(
     counts = _numbers(trials, "--trials"), _numbers(people, "--people")
     judge = _observer(observer)
     loaded = load_protocol(protocol)
-    if loaded.rates:
-        raise typer.BadParameter("asks for ratings, which have no threshold", param_hint="PROTOCOL")
+    if loaded.rates or loaded.adjusts:
+        raise typer.BadParameter("has no psychometric function", param_hint="PROTOCOL")
     with progress_bar("power") as progress:
         rows = rows_of(loaded, judge, *counts, experiments, seed, between, progress)
     if as_json:
@@ -230,6 +230,20 @@ def delete(
 
     for path in forget(_folder(protocol, out), participant):
         typer.echo(f"deleted {path}")
+
+
+@command.command()
+def noise(
+    out: Annotated[Path, typer.Option("--out", help="The file.", metavar="FILE")] = Path("noise.wav"),
+    seconds: Annotated[int, typer.Option(min=1, max=3600, help="Length; it can play in a loop.")] = 60,
+) -> None:
+    """Writes pink noise, a WAV file for headphones: it masks the sound of the motors."""
+    from punctura.files.whole_file import write_whole
+    from punctura.perception.noise import pink_noise
+
+    check_place(out, "--out")
+    write_whole(out, pink_noise(seconds))
+    typer.echo(str(out))
 
 
 def _folder(protocol: str, out: Path | None) -> Path:

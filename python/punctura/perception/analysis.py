@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import betaincinv, ndtri, stdtrit  # scipy.stats takes long to import
+from scipy.special import betaincinv, chdtri, ndtr, ndtri, stdtrit  # scipy.stats takes long to import
 
 from punctura.perception.course import counted
 from punctura.perception.load import LEAST
@@ -18,12 +18,14 @@ from punctura.results import JsonObject
 LEVEL = 0.95  # of all intervals
 SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
 VAGUE = 0.75  # of the range of the levels: an interval of the threshold that says nothing
+OPEN = 0.15  # of the largest density: that much at the end of the prior, and the answers set no bound there
 QUARTER = float(ndtri(0.75))
-_POINTS = 400  # of each rate, for the interval of d'
+LEAST_CELL = 5  # answers for a rate of d'
+_POINTS = 200  # of each rate, for the interval of d'
 
 
 class Estimate(NamedTuple):
-    """A number and the ends of its 95 % interval."""
+    """A number and the ends of its 95 % interval. If the answers set no bound, an end is infinite, the number NaN."""
 
     value: float
     low: float
@@ -37,9 +39,11 @@ class Answers:
     level: Array  # as planned
     x: Array  # as felt, if the variable is a felt quantity; otherwise as planned
     counted: Array  # 1 for the counted answer; the points of a rating
-    right: Array  # 1 for a right answer; NaN where none is right
+    right: Array  # 1 for a right answer or yes, a rating, a setting; NaN where none is right
     block: Array
+    side: Array  # 1: the comparison was in the first interval; -1: in another one
     catch: Array  # of the catch trials: 1 for a right answer, or for a "yes"
+    reference: float  # the level of the other intervals, as felt if the variable is a felt quantity; NaN without one
 
 
 @dataclass
@@ -49,7 +53,7 @@ class Detection:
     level: float
     trials: int
     dprime: Estimate
-    criterion: Estimate | None  # of yes or no
+    criterion: Estimate  # of yes, or of the first interval
 
 
 @dataclass
@@ -63,10 +67,11 @@ class Person:
     jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself
     weber: Estimate | None = None  # jnd / reference
     lapse: Estimate | None = None
+    first: Estimate | None = None  # share of "first" if two intervals do not differ: the bias
     slope: Estimate | None = None  # of ratings: points for each unit of the variable
     reason: str = ""  # why there is no threshold
     detection: list[Detection] = field(default_factory=list)
-    right_by_block: list[float | None] = field(default_factory=list)  # None: no answer of the block is right or wrong
+    by_block: list[float | None] = field(default_factory=list)  # share of right answers or yes; mean rating or setting
     catch_trials: int = 0
     catch_counted: int = 0
 
@@ -89,43 +94,50 @@ class Analysis:
 def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Answers:
     """The answers of a session's lines, without its header."""
     rows: list[tuple[float, ...]] = []
-    catch = []
+    catch, references = [], []
     for line in lines:
         data: JsonObject = dict(line)
         hit = float(data["answer"] if protocol.rates else counted(protocol, data["position"], data["answer"]))
-        level = float(data["level"])
+        if protocol.adjusts and hit:
+            continue  # no setting yet
+        planned, (felt, other) = float(data["level"]), felt_level(protocol, data)
         right = float("nan")
         if not protocol.compares:
-            right = float("nan") if protocol.rates else hit
-        elif level != protocol.reference:
-            right = float((hit == 1) == ((level > (protocol.reference or 0.0)) == protocol.rises))
+            right = felt if protocol.adjusts else hit
+        elif planned != protocol.reference:
+            right = float((hit == 1) == ((planned > (protocol.reference or 0.0)) == protocol.rises))
         if data["kind"] == "catch":
             catch.append(right)
         elif data["kind"] == "trial":
-            rows.append((level, _felt(protocol, data), hit, right, float(data["block"])))
-    table = np.array(rows, np.float64).reshape(-1, 5)
-    planned, felt, hits, rights, blocks = table.T
-    return Answers(planned, felt, hits, rights, blocks, np.array(catch))
+            references.append(other)
+            rows.append((planned, felt, hit, right, float(data["block"]), 1.0 if data["position"] == 0 else -1.0))
+    level, x, hits, rights, block, side = np.array(rows, np.float64).reshape(-1, 6).T
+    reference = float(np.mean(references)) if references else np.nan
+    return Answers(level, x, hits, rights, block, side, np.array(catch), reference)
 
 
-def _felt(protocol: Protocol, line: JsonObject) -> float:
-    """The level as it was felt: against the reference intervals of the same trial, at the reference's level."""
+def felt_level(protocol: Protocol, line: JsonObject) -> tuple[float, float]:
+    """The level as it was felt, against the reference intervals of the same trial, at the reference's level; and the
+    level of these intervals."""
+    reference = float("nan") if protocol.reference is None else protocol.reference
     if not protocol.in_newtons:
-        return float(line["level"])
-    quantity = protocol.quantity
-    felt = [float(one[quantity]) for one in line["felt"]]
+        return float(line["level"]), reference
+    felt = [float(one[protocol.quantity]) for one in line["felt"]]
     mine = felt.pop(int(line["position"]))
-    return mine if not felt else (protocol.reference or 0.0) + mine - sum(felt) / len(felt)
+    if not felt:
+        return mine, reference
+    return reference + mine - sum(felt) / len(felt), sum(felt) / len(felt)
 
 
 def belief_of(protocol: Protocol, answers: Answers) -> Belief:
     """The posterior of the psychometric function. Needs answers of both kinds."""
-    shape = protocol.shape
     x = answers.x
-    if protocol.in_newtons:  # hundreds of different numbers take long, and differ by less than the noise of any hand
-        step = (max(protocol.levels) - min(protocol.levels)) / 100
-        x = np.round(x / step) * step
-    return posterior(shape, protocol.levels, x, answers.counted)
+    if protocol.in_newtons:  # hundreds of different numbers take long: each becomes the mean of those near it
+        step = (max(protocol.levels) - min(protocol.levels)) / 40
+        _, group = np.unique(np.round(x / step), return_inverse=True)
+        x = (np.bincount(group, x) / np.bincount(group))[group]
+    catch = float(np.nansum(answers.catch)), len(answers.catch)
+    return posterior(protocol.shape, protocol.levels, x, answers.counted, answers.side, catch)
 
 
 def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, object]]) -> Person:
@@ -133,36 +145,52 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, ob
     found = answers_of(protocol, lines)
     result = Person(participant, len(found.level))
     blocks = np.unique(found.block)
-    result.right_by_block = [_share(found.right[found.block == block]) for block in blocks]
+    result.by_block = [_share(found.right[found.block == block]) for block in blocks]
     result.catch_trials, result.catch_counted = len(found.catch), int(found.catch.sum())
     result.detection = _detection(protocol, found)
     result.reason = _too_little(protocol, found)
     if result.reason:
         return result
     if protocol.rates:
-        result.slope = _slope(found.x, found.counted)
-        return result
+        log = protocol.file.task == "magnitude"
+        result.slope = _slope(*((np.log(one[found.x > 0]) if log else one) for one in (found.x, found.counted)))
+    elif protocol.adjusts:
+        result.threshold, result.jnd = _settings(found.x)
+        result.weber = _weber(result.jnd, found.reference)
+    else:
+        _fit(protocol, found, result)
+    return result
+
+
+def _weber(jnd: Estimate | None, reference: float) -> Estimate | None:
+    return Estimate(*(one / abs(reference) for one in jnd)) if jnd and abs(reference) > 0 else None
+
+
+def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
     belief = belief_of(protocol, found)
     grid, shape = belief.grid, protocol.shape
-    outside = float(belief.weight @ ((grid.place < grid.low) | (grid.place > grid.high)))
-    if outside > SHARES[0]:
+    ends = [belief.mean(np.asarray(beyond, np.float64)) for beyond in (grid.place < grid.low, grid.place > grid.high)]
+    outside = sum(ends)
+    if outside > SHARES[0] and max(ends) > 3 * min(ends):
         result.reason = (
             f"the threshold may lie outside the levels (probability {outside:.0%}): show levels on both sides of it"
         )
-    elif np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread:
+    elif outside > SHARES[0] or np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread:
         result.reason = "the answers hardly depend on the level, so they do not determine a threshold"
     if result.reason:
-        return result
+        return
     result.threshold = _estimate(belief, shape.level(grid.place))
     result.lapse = _estimate(belief, grid.lapse)
+    if shape.rest == "bias":
+        result.first = _estimate(belief, ndtr(grid.bias))
     if shape.one_sided:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
-        ends = (shape.level(grid.place + sign * QUARTER * grid.width) for sign in (1, -1))
-        result.jnd = _estimate(belief, (next(ends) - next(ends)) / 2)
-    if result.jnd is not None and protocol.reference:
-        result.weber = Estimate(*(one / abs(protocol.reference) for one in result.jnd))
-    return result
+        quarters = (shape.level(grid.place + sign * QUARTER * grid.width) for sign in (1, -1))
+        result.jnd = _estimate(belief, (next(quarters) - next(quarters)) / 2)
+        if belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
+            result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
+    result.weber = _weber(result.jnd, found.reference)
 
 
 def _share(right: Array) -> float | None:
@@ -178,6 +206,8 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
     if protocol.rates:
         same = [what for what, one in (("rating", found.counted), ("level", found.x)) if np.ptp(one) == 0]
         return f"every {same[0]} was the same, so there is no slope" if same else ""
+    if protocol.adjusts:
+        return "" if np.ptp(found.x) else "every setting was the same: make the steps between the levels smaller"
     if share in (0.0, 1.0):
         what = {"yes_no": ("no", "yes")}.get(protocol.file.task, ("wrong", "right"))
         what = ("the reference", "the comparison") if protocol.compares else what
@@ -197,27 +227,44 @@ def _slope(x: Array, y: Array) -> Estimate:
     return Estimate(slope, slope - half, slope + half)
 
 
+def _settings(x: Array) -> tuple[Estimate, Estimate]:
+    """The mean setting, and the JND: the deviation that half of the settings exceed, if they are normal."""
+    jnd, free = QUARTER * float(x.std(ddof=1)), len(x) - 1
+    low, high = (float(np.sqrt(free / chdtri(free, share))) for share in SHARES)
+    return _mean(x), Estimate(jnd, low * jnd, high * jnd)
+
+
 def _estimate(belief: Belief, values: Array) -> Estimate:
     low, high = belief.quantiles(values, SHARES)
     return Estimate(belief.mean(values), float(low), float(high))
 
 
 def _detection(protocol: Protocol, found: Answers) -> list[Detection]:
-    """d' of each level: from yes and false alarms in the catch trials, or from two intervals with a right answer."""
-    task = protocol.file.task
-    if (task == "yes_no" and not len(found.catch)) or task == "three_intervals" or protocol.compares or protocol.rates:
-        return []
+    """d' and criterion of each level, from two rates: of yes, and of false alarms in the catch trials; or of the
+    comparison in each of two intervals, so that a bias towards one of them is none of d'. Three intervals have none.
+    """
+    yes_no = protocol.file.task == "yes_no"
     list_of = []
-    for level in np.unique(found.level):
-        here = found.counted[found.level == level]
-        z_hit = _z(float(here.sum()), len(here))
-        if task == "yes_no":
-            z_false = _z(float(found.catch.sum()), len(found.catch))
-            gap, middle = z_hit[:, None] - z_false, -(z_hit[:, None] + z_false) / 2
-            list_of.append(Detection(float(level), len(here), _spread(gap.ravel()), _spread(middle.ravel())))
-        else:
-            list_of.append(Detection(float(level), len(here), _spread(np.sqrt(2) * z_hit), None))
+    for level in np.unique(found.level) if yes_no or protocol.file.task == "two_intervals" else ():
+        here = found.level == level
+        cells = [found.counted[here & (found.side == side)] for side in (1, -1)]
+        if yes_no:  # the false alarms are counted as the answers "no" of a second interval
+            cells[1] = 1 - found.catch
+        if min(map(len, cells)) < LEAST_CELL:
+            continue
+        one, other = (_z(float(cell.sum()), len(cell)) for cell in cells)
+        never, always = ([bool(cell.mean() == end) for cell in cells] for end in (0, 1))
+        dprime = _spread((one[:, None] + other) / (1 if yes_no else np.sqrt(2)), any(never), any(always))
+        criterion = _spread((other - one[:, None]) / 2, always[0] or never[1], never[0] or always[1])
+        list_of.append(Detection(float(level), int(here.sum()), dprime, criterion))
     return list_of
+
+
+def _spread(values: Array, no_low: bool, no_high: bool) -> Estimate:
+    """Of equally probable values. A rate of 0 or 1 sets no bound on one side."""
+    low, high = (float(end) for end in np.quantile(values, SHARES))
+    value = np.nan if no_low or no_high else float(values.mean())
+    return Estimate(value, -np.inf if no_low else low, np.inf if no_high else high)
 
 
 def _z(hits: float, trials: int) -> Array:
@@ -225,10 +272,6 @@ def _z(hits: float, trials: int) -> Array:
     shares = (np.arange(_POINTS) + 0.5) / _POINTS
     rate: Array = ndtri(betaincinv(hits + 0.5, trials - hits + 0.5, shares))
     return rate
-
-
-def _spread(values: Array) -> Estimate:
-    return Estimate(float(values.mean()), *(float(end) for end in np.quantile(values, SHARES)))
 
 
 def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Mapping[str, object]]]) -> Analysis:
@@ -242,7 +285,7 @@ def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Mapping[str, obj
         return result
     for key in ("threshold", "jnd", "weber", "slope"):
         values = [one.value for person in known if (one := getattr(person, key)) is not None]
-        if len(values) > 1:
+        if len(values) == len(known) and np.isfinite(values).all():
             setattr(result, key, _mean(np.array(values)))
     return result
 

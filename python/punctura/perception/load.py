@@ -12,12 +12,17 @@ from pathlib import Path
 from punctura import Scene
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
-from punctura.perception.protocol import ANSWERS, SCHEMA, Protocol, ProtocolFile, Stimulus
+from punctura.perception.protocol import ANSWERS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
 from punctura.perception.stimulus import QUANTITIES, built, simulated, solved
 from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
-LEAST = {"constant": 40, "staircase": 40, "quest": 20}  # scored trials for a fit, docs/decisions/perception.md
+LEAST = {
+    "constant": 40,
+    "staircase": 40,
+    "quest": 20,
+    "adjustment": 6,
+}  # scored trials for a fit, docs/decisions/perception.md
 LEAST_LEVELS = 3
 MOST_LEVELS, MOST_TRIALS = 100, 10_000
 
@@ -82,6 +87,10 @@ def _trials(file: ProtocolFile) -> Iterator[Problem]:
         yield Problem(f"trials.{wanted}", count, reason)
     elif given.blocks < 1 or count % given.blocks:
         yield Problem("trials.blocks", given.blocks, f"must divide {wanted}, {count}, so that all blocks are alike")
+    if (file.method == "adjustment") != (file.task == "adjustment"):
+        yield Problem("method", file.method, "and task must both be adjustment, or none of them")
+    elif file.method == "adjustment" and given.practice + given.catch:
+        yield Problem("trials.practice", given.practice, "and catch are not for adjustment; leave both out")
     for key in ("practice", "catch"):
         if not 0 <= getattr(given, key) <= 1000:
             yield Problem(f"trials.{key}", getattr(given, key), "must be from 0 to 1000")
@@ -92,7 +101,7 @@ def _trials(file: ProtocolFile) -> Iterator[Problem]:
         if not 1 <= getattr(given, key) <= 100:
             yield Problem(f"trials.{key}", getattr(given, key), "must be from 1 to 100")
     kept = given.up / max(given.up + given.down, 1)
-    guess = 0.0 if file.task == "yes_no" else 1 / len(ANSWERS[file.task])
+    guess = 0.0 if file.task == "yes_no" else 1 / max(len(ANSWERS[file.task]), 1)
     if file.method == "staircase" and kept <= guess:
         reason = f"with down = {given.down} it seeks {kept:.0%} right answers, which guessing gives; give a larger up"
         yield Problem("trials.up", given.up, reason)
@@ -116,9 +125,11 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
         yield Problem("stimulus.levels", levels, 'must be more than 0 with scale = "log"')
     reference = None if given.reference is None else float(given.reference)
     by_solver = given.reference_solver is not None
-    if file.task == "rating" and (file.method != "constant" or file.trials.catch):
+    if file.task == "magnitude" and levels and levels[0] <= 0:
+        yield Problem("stimulus.levels", levels, "must be more than 0 for magnitude, whose result is an exponent")
+    if file.task in ("rating", "magnitude") and (file.method != "constant" or file.trials.catch):
         yield Problem("task", file.task, "is for constant stimuli without catch trials: change method or catch")
-    if file.task in ("yes_no", "rating"):
+    if file.task in ONE_INTERVAL:
         for key in ("reference", "reference_solver"):
             if getattr(given, key) is not None:
                 yield Problem(
@@ -132,6 +143,8 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
         yield Problem("trials.catch_level", float(file.trials.catch_level), reason)
     elif reference is not None and levels:
         one_sided = not min(levels) < reference < max(levels)
+        if one_sided and file.task == "adjustment":
+            yield Problem("stimulus.reference", reference, "must lie between the levels for adjustment")
         if file.trials.catch_level is not None and float(file.trials.catch_level) == reference:
             yield Problem("trials.catch_level", reference, "is the reference, at which no answer is right")
         if not one_sided and (file.method == "staircase" or file.task == "three_intervals"):

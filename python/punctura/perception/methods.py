@@ -1,10 +1,11 @@
-"""The three methods: which level comes next, from the answers so far.
+"""The methods: which level comes next, from the answers so far.
 
 A method has no randomness of its own that is not the seed's, so the answers on disk bring it back to where it was.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Protocol as Typed
 
 import numpy as np
@@ -18,8 +19,8 @@ class Method(Typed):
 
     def next(self) -> int: ...
 
-    def add(self, level: int, counted: bool) -> None:
-        """counted: whether the answer was right, "yes" or "the comparison"."""
+    def add(self, level: int, counted: int) -> None:
+        """counted: whether the answer was right, "yes" or "the comparison"; of an adjustment as `course.counted`."""
 
 
 class Constant:
@@ -34,7 +35,7 @@ class Constant:
     def next(self) -> int:
         return int(self._order[self._at])
 
-    def add(self, level: int, counted: bool) -> None:
+    def add(self, level: int, counted: int) -> None:
         self._at += 1
 
 
@@ -54,9 +55,26 @@ class Staircase:
     def next(self) -> int:
         return self._at
 
-    def add(self, level: int, counted: bool) -> None:
+    def add(self, level: int, counted: int) -> None:
         step = self._down if counted else -self._up
         self._at = min(max(level + self._harder * step, 0), self._last)
+
+
+class Adjustment:
+    """The comparison begins at either end of the levels as often, and the answers move it until it is equal."""
+
+    def __init__(self, protocol: Protocol, random: np.random.Generator) -> None:
+        self._last, self._up = len(protocol.levels) - 1, 1 if protocol.rises else -1
+        self._starts = [int(end) * self._last for end in random.permutation(protocol.file.trials.total or 0) % 2]
+        self._at = self._starts.pop()
+
+    def next(self) -> int:
+        return self._at
+
+    def add(self, level: int, counted: int) -> None:
+        self._at = min(max(level + self._up * counted, 0), self._last)
+        if not counted and self._starts:
+            self._at = self._starts.pop()
 
 
 class Quest:
@@ -64,11 +82,12 @@ class Quest:
     2017), here that of the wanted parameters alone (N. Prins, Journal of Vision 13(7):3, 2013).
 
     Wanted are place and width, of right answers only the place. Lapses and false alarms are summed over, else they
-    would cost trials.
+    would cost trials. A bias towards one interval is left out: both intervals have the comparison as often.
     """
 
     def __init__(self, protocol: Protocol) -> None:
-        grid = Grid(protocol.shape, protocol.levels, QUEST)
+        shape = protocol.shape
+        grid = Grid(replace(shape, rest="") if shape.rest == "bias" else shape, protocol.levels, QUEST)
         self._p: Array = grid.probability(protocol.levels)
         self._weight: Array = grid.prior
         self._wanted = QUEST.place if protocol.shape.one_sided else QUEST.place * QUEST.width
@@ -80,7 +99,7 @@ class Quest:
         gain = sum(_plogp(part).sum(axis=1) - _plogp(part.sum(axis=1)) for part in (yes, no))
         return int(np.argmax(gain))
 
-    def add(self, level: int, counted: bool) -> None:
+    def add(self, level: int, counted: int) -> None:
         p = self._p[level]
         weight = self._weight * (p if counted else 1 - p)
         self._weight = weight / weight.sum()
@@ -95,4 +114,6 @@ def method_of(protocol: Protocol, random: np.random.Generator) -> Method:
     """The method of a protocol at its start."""
     if protocol.file.method == "constant":
         return Constant(protocol, random)
+    if protocol.adjusts:
+        return Adjustment(protocol, random)
     return Staircase(protocol) if protocol.file.method == "staircase" else Quest(protocol)

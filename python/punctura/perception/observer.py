@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from scipy.special import ndtr
+from scipy.special import ndtr, ndtri
 
 from punctura.perception.course import Course, Trial
 from punctura.perception.protocol import Protocol, Stimulus
+from punctura.perception.psychometric import Array
 from punctura.perception.session import Session
 from punctura.perception.stimulus import Felt, simulated
 
 REALISATIONS = 8  # of the hand's randomness, for each stimulus
+CURVE = 81  # levels
 
 
 @dataclass(frozen=True)
@@ -30,7 +34,7 @@ class Observer:
     weber: float = 0.1
     noise: float = 0.0  # N
     masking: float = 0.0
-    bias: float = 0.0  # N, added to the comparison
+    bias: float = 0.0  # N, added to the first of several intervals
     lapse: float = 0.02  # share of answers by chance
     criterion: float | None = None  # N
 
@@ -61,6 +65,10 @@ class Senses:
         """One realisation."""
         return self.all(stimulus)[int(random.integers(REALISATIONS))]
 
+    def put(self, stimulus: Stimulus, several: list[Felt]) -> None:
+        """What is felt of a stimulus by another hand."""
+        self._felt[id(stimulus)] = several
+
     def all(self, stimulus: Stimulus) -> list[Felt]:
         """All realisations."""
         key = id(stimulus)
@@ -86,25 +94,32 @@ class Simulation:
         random = np.random.default_rng([seed, trial.number])
         felt = [self.senses.felt(one, random) for one in trial.intervals]
         names = list(self.protocol.answers)
-        if random.random() < self.observer.lapse:
+        if random.random() < self.observer.lapse and names:
             return names[int(random.integers(len(names)))], felt
-        inner = [self._inner(one, random, i == trial.position) for i, one in enumerate(felt)]
+        inner = [self._inner(one, random) for one in felt]
+        inner[0] += self.observer.bias * (len(inner) > 1)
+        if self.protocol.file.task == "magnitude":
+            return f"{max(inner[0] / self.criterion, 0.01):.3g}", felt
         if self.protocol.rates:
             return names[int(np.clip(round(inner[0] / self.criterion), 0, len(names) - 1))], felt
         if self.protocol.file.task == "yes_no":
             return names[0 if inner[0] > self.criterion else 1], felt
-        return names[int(np.argmax(inner) if self._stronger(trial) else np.argmin(inner))], felt
+        if self.protocol.adjusts:
+            gap, near = inner[1] - inner[0], self.observer.spread(felt[0], self._judged) / 2
+            ends = (trial.level == 0) == self.protocol.rises, trial.level in (0, len(self.protocol.levels) - 1)
+            beyond = ends[1] and (gap > 0) == ends[0]  # there is no weaker or no stronger level
+            return names[2 if abs(gap) < near or beyond else 0 if gap > 0 else 1], felt
+        sign = self._sign(trial.shown, trial.intervals[trial.position - 1])  # an interval of the reference
+        return names[int(np.argmax(sign * np.array(inner)))], felt
 
-    def _inner(self, one: Felt, random: np.random.Generator, is_comparison: bool) -> float:
-        value = float(getattr(one, self._judged)) + self.observer.bias * is_comparison
+    def _inner(self, one: Felt, random: np.random.Generator) -> float:
+        value = float(getattr(one, self._judged))
         return value + self.observer.spread(one, self._judged) * float(random.standard_normal())
 
-    def _stronger(self, trial: Trial) -> bool:
-        """Whether the question seeks the strongest interval; the weakest if the levels only weaken the reference."""
-        if self.protocol.compares:
-            return True
-        other = trial.intervals[trial.position - 1]  # an interval of the reference
-        return bool(getattr(trial.shown.felt, self._judged) >= getattr(other.felt, self._judged))
+    def _sign(self, shown: Stimulus, other: Stimulus) -> int:
+        """1 if the question seeks the strongest interval; -1 for the weakest: the levels only weaken the reference."""
+        weaker = getattr(shown.felt, self._judged) < getattr(other.felt, self._judged)
+        return -1 if weaker and not self.protocol.compares else 1
 
     @cached_property
     def criterion(self) -> float:
@@ -134,45 +149,95 @@ class Simulation:
                 session.add(trial, *self.answer(trial, seed))
             return len(session.course)
 
-    def probability(self, i: int) -> float:
-        """Of the counted answer at level i, without lapses: the mean over the hand's realisations."""
-        stimulus, protocol = self.protocol.stimuli[i], self.protocol
-        mine = self.senses.all(stimulus)
-        a = np.array([getattr(one, self._judged) for one in mine]) + self.observer.bias
-        sa = np.array([self.observer.spread(one, self._judged) for one in mine])
-        if protocol.file.task == "yes_no":
+    def chance(self, shown: Stimulus, other: Stimulus | None, side: int = 0, lapses: bool = False) -> float:
+        """Of the counted answer, mean of the hand's realisations. side: 1, `shown` comes first; -1, it comes second; 0
+        is for an observer without bias."""
+        p = self._chance(shown, other, self.senses.all(shown), self.senses.all(other) if other else (), side)
+        lapse = self.observer.lapse * lapses
+        return (1 - lapse) * p + lapse / max(self.protocol.intervals, 2)
+
+    def _chance(
+        self, shown: Stimulus, other: Stimulus | None, mine: Sequence[Felt], theirs: Sequence[Felt], side: int = 0
+    ) -> float:
+        a, sa = self._told(mine)
+        if other is None:
             return float(ndtr((a - self.criterion) / sa).mean())
-        others = self.senses.all(protocol.references[i])
-        b = np.array([getattr(one, self._judged) for one in others])
-        sb = np.array([self.observer.spread(one, self._judged) for one in others])
-        gap = a.mean() - b.mean()
-        if not protocol.compares:
-            gap = abs(gap)
-        return _chosen(gap, float(sa.mean()), float(sb.mean()), protocol.intervals)
+        b, sb = self._told(theirs)
+        gap = self._sign(shown, other) * (a[:, None] - b + side * self.observer.bias)
+        return _chosen(gap, np.broadcast_to(sa[:, None], gap.shape), sb, self.protocol.intervals)
+
+    def _told(self, several: Sequence[Felt]) -> tuple[Array, Array]:
+        judged = [float(getattr(one, self._judged)) for one in several]
+        return np.array(judged), np.array([self.observer.spread(one, self._judged) for one in several])
+
+    def dprime(self, i: int) -> float:
+        """What endless answers at level i would give, lapses included."""
+        protocol = self.protocol
+        shown = protocol.stimuli[i]
+        if protocol.catch is not None and protocol.file.task == "yes_no":
+            return float(ndtri(self.chance(shown, None, 0, True)) - ndtri(self.chance(protocol.catch, None, 0, True)))
+        z = ndtri([self.chance(shown, protocol.references[i], side, True) for side in (1, -1)])
+        return float(z.sum() / np.sqrt(2))
+
+    def curve(self) -> tuple[Array, Array]:
+        """Levels, and the probability of the counted answer at each, without lapses and bias.
+
+        With a felt quantity the level is the felt one: a hand feels the planned level differently each time.
+        """
+        protocol = self.protocol
+        several = list(zip(protocol.stimuli, protocol.references or [None] * len(protocol.stimuli), strict=True))
+        if not protocol.in_newtons:
+            return np.array(protocol.levels), np.array([self.chance(*pair) for pair in several])
+        keys = {self._judged, "peak", protocol.quantity}
+        means = {
+            key: [float(np.mean([getattr(one, key) for one in self.senses.all(shown)])) for shown in protocol.stimuli]
+            for key in keys
+        }
+
+        def at(value: float) -> Felt:
+            found: dict[str, Any] = {key: float(np.interp(value, means[protocol.quantity], means[key])) for key in keys}
+            return Felt(**{**vars(protocol.stimuli[0].felt), **found, protocol.quantity: value})
+
+        x, p = np.linspace(protocol.levels[0], protocol.levels[-1], CURVE), []
+        shown, other = several[-1] if protocol.rises else several[0]
+        for value in x:
+            if other is None:
+                p.append(self._chance(shown, None, [at(value)], ()))
+                continue
+            steps = [
+                (one, getattr(one, protocol.quantity) + value - protocol.reference) for one in self.senses.all(other)
+            ]
+            p.append(float(np.mean([self._chance(shown, other, [at(level)], [one]) for one, level in steps])))
+        return x, np.array(p)
 
     def threshold(self, share: float | None = None) -> float:
         """The level at which the counted answer has the probability `share`, without lapses; the true threshold.
 
         Default: 1/2, or half-way between guess and 1 for right answers. Raises ValueError if it is outside the levels.
         """
-        shape = self.protocol.shape
-        wanted = share if share is not None else (1 + shape.guess) / 2 if shape.one_sided else 0.5
         from scipy.interpolate import PchipInterpolator  # takes long
 
-        p = np.array([self.probability(i) for i in range(len(self.protocol.levels))])
-        levels = np.asarray(self.protocol.levels)
-        curve = PchipInterpolator(levels, p - wanted)
-        found = curve.roots(extrapolate=False)
+        shape = self.protocol.shape
+        wanted = share if share is not None else (1 + shape.guess) / 2 if shape.one_sided else 0.5
+        levels, p = self.curve()
+        z = ndtri(np.clip(p, 1e-9, 1 - 1e-9))  # between levels it is straighter than the probability
+        found = PchipInterpolator(levels, z - ndtri(wanted)).roots(extrapolate=False)
         if not len(found):
             raise ValueError(f"this observer's threshold is outside the levels, {levels[0]:g} to {levels[-1]:g}")
         return abs(float(found[0]) - shape.reference) if shape.one_sided else float(found[0])
 
+    def jnd(self) -> float:
+        """Half the distance between 25 % and 75 %, or of right answers the threshold. Raises ValueError."""
+        if self.protocol.shape.one_sided:
+            return self.threshold()
+        return abs(self.threshold(0.75) - self.threshold(0.25)) / 2
 
-def _chosen(gap: float, own: float, other: float, intervals: int) -> float:
-    """The probability that the comparison is felt strongest of all intervals."""
+
+def _chosen(gap: Array, own: Array, other: Array, intervals: int) -> float:
+    """The probability that the comparison is felt strongest of all intervals: the mean of all pairs."""
     if intervals == 2:
-        return float(ndtr(gap / np.hypot(own, other)))
-    z = np.linspace(-8, 8, 801)
+        return float(ndtr(gap / np.hypot(own, other)).mean())
+    z = np.linspace(-8, 8, 801)[:, None, None]
     density = np.exp(-z * z / 2) / np.sqrt(2 * np.pi)
     beats = ndtr((gap + own * z) / other) ** (intervals - 1)
-    return float(np.sum(density * beats) * (z[1] - z[0]))
+    return float(np.sum(density * beats) * (z[1, 0, 0] - z[0, 0, 0]) / gap.size)

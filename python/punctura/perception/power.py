@@ -10,19 +10,19 @@ import numpy as np
 from punctura.perception.analysis import analyse, person
 from punctura.perception.observer import Observer, Senses, Simulation
 from punctura.perception.protocol import Protocol
+from punctura.perception.psychometric import Array
 from punctura.progress import Report
 
 
 @dataclass(frozen=True)
 class Coverage:
-    """Many sessions of one observer whose threshold is known."""
+    """Intervals of many sessions of one observer, for whom the number is known."""
 
-    sessions: int
-    without: int  # sessions that gave no threshold
-    truth: float
-    covered: float  # share of the intervals that hold the true threshold, of those that there are
-    bias: float  # mean of the estimates less the truth, as a share of the truth
-    width: float  # mean width of the interval
+    what: str  # threshold, jnd or dprime, the d' of each level
+    without: float  # share of the sessions, or of the levels, that gave no number
+    covered: float  # share of the intervals that hold the known number
+    bias: float  # mean of the numbers less what is known, as a share of it
+    width: float  # mean of the intervals
     trials: int  # scored, of one session
 
 
@@ -40,30 +40,35 @@ def with_trials(protocol: Protocol, trials: int) -> Protocol:
 def coverage(
     protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None,
     report: Report = lambda share: None,
-) -> Coverage:  # fmt: skip
-    """Raises ValueError if the observer's threshold is outside the levels."""
+) -> dict[str, Coverage]:  # fmt: skip
+    """By threshold, jnd and dprime, where the task has one. Raises ValueError if one is outside the levels."""
     simulation = Simulation(protocol, observer, senses)
-    truth = simulation.threshold()
-    found = []
-    trials = 0
+    truth: dict[str, list[float]] = {"threshold": [simulation.threshold()]}
+    if protocol.reference is not None:
+        truth["jnd"] = [simulation.jnd()]
+    if protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch):
+        truth["dprime"] = [simulation.dprime(i) for i in range(len(protocol.levels))]
+    rows: dict[str, list[tuple[float, ...]]] = {what: [] for what in truth}
     for i in range(sessions):
-        result = person(protocol, "", simulation.run(i, seed + i))
-        trials = result.trials
-        if result.threshold is not None:
-            found.append(result.threshold)
+        one = person(protocol, "", simulation.run(i, seed + i))
+        dprimes = {each.level: each.dprime for each in one.detection}
+        found = {"threshold": [one.threshold], "jnd": [one.jnd], "dprime": [*map(dprimes.get, protocol.levels)]}
+        for what, known in truth.items():
+            rows[what] += [(true, *each) for true, each in zip(known, found[what], strict=True) if each is not None]
         report((i + 1) / sessions)
-    if not found:
-        return Coverage(sessions, sessions, truth, np.nan, np.nan, np.nan, trials)
-    value, low, high = np.array(found).T
-    return Coverage(
-        sessions=sessions,
-        without=sessions - len(found),
-        truth=truth,
-        covered=float(np.mean((low <= truth) & (truth <= high))),
-        bias=float(value.mean() / truth - 1),
-        width=float((high - low).mean()),
-        trials=trials,
-    )
+    return {
+        what: _coverage(what, np.array(row).reshape(-1, 4), sessions * len(truth[what]), one.trials)
+        for what, row in rows.items()
+    }
+
+
+def _coverage(what: str, rows: Array, asked: int, trials: int) -> Coverage:
+    true, value, low, high = rows.T
+    known = np.isfinite(value)
+    bias = (value[known] - true[known]).sum() / np.abs(true[known]).sum() if known.any() else np.nan
+    covered = float(np.mean((low <= true) & (true <= high))) if len(rows) else np.nan
+    width = float((high[known] - low[known]).mean()) if known.any() else np.nan
+    return Coverage(what, 1 - len(rows) / asked, covered, float(bias), width, trials)
 
 
 @dataclass(frozen=True)

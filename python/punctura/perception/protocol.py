@@ -15,15 +15,18 @@ from punctura.files.tables import Schema, Table
 from punctura.perception.psychometric import Shape
 from punctura.perception.stimulus import QUANTITIES, Felt
 
-Method = Literal["constant", "staircase", "quest"]
-Task = Literal["two_intervals", "three_intervals", "yes_no", "rating"]
+Method = Literal["constant", "staircase", "quest", "adjustment"]
+Task = Literal["two_intervals", "three_intervals", "yes_no", "rating", "magnitude", "adjustment"]
 ANSWERS: dict[str, tuple[str, ...]] = {
     "two_intervals": ("first", "second"),
     "three_intervals": ("first", "second", "third"),
     "yes_no": ("yes", "no"),
     "rating": tuple("123456789"),
+    "magnitude": (),  # any number above 0
+    "adjustment": ("less", "more", "equal"),
 }
-_KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n"}
+ONE_INTERVAL = ("yes_no", "rating", "magnitude")
+_KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n", "less": "-", "more": "+", "equal": "="}
 
 
 class StimulusTable(Table):
@@ -31,7 +34,7 @@ class StimulusTable(Table):
 
     variable: Text  # a path of the scene, or one of QUANTITIES
     levels: Numbers
-    reference: Number | None = None  # level of the other intervals; not for yes_no and rating
+    reference: Number | None = None  # level of the other intervals; not for ONE_INTERVAL
     solve: Text | None = None  # for a quantity: the path whose number is solved ...
     between: Numbers | None = None  # ... between these two
     membrane: Text | None = None  # whose pop is judged; default: the first
@@ -45,7 +48,7 @@ class TrialsTable(Table):
     """How many trials, and in which order."""
 
     per_level: WholeNumber | None = None  # of constant stimuli
-    total: WholeNumber | None = None  # of a staircase and QUEST+
+    total: WholeNumber | None = None  # of a staircase and QUEST+; settings of an adjustment
     blocks: WholeNumber = 1
     practice: WholeNumber = 0  # before the first block, at the easiest level; not analysed
     catch: WholeNumber = 0  # in each block, at catch_level
@@ -113,12 +116,17 @@ class Protocol:
     @property
     def intervals(self) -> int:
         """The number of intervals of a trial."""
-        return {"two_intervals": 2, "three_intervals": 3}.get(self.file.task, 1)
+        return {"three_intervals": 3}.get(self.file.task, 1 if self.file.task in ONE_INTERVAL else 2)
 
     @property
     def rates(self) -> bool:
-        """Whether the answers are ratings, which have a slope and no threshold."""
-        return self.file.task == "rating"
+        """Whether the answers are numbers, which have a slope and no threshold."""
+        return self.file.task in ("rating", "magnitude")
+
+    @property
+    def adjusts(self) -> bool:
+        """Whether the second interval is set until it equals the first: a trial is one look, and "equal" a setting."""
+        return self.file.task == "adjustment"
 
     @property
     def reference(self) -> float | None:
@@ -160,15 +168,13 @@ class Protocol:
     def shape(self) -> Shape:
         """Of the psychometric function."""
         if self.file.task == "yes_no" or self.compares:
-            floor = self.file.task == "yes_no"
-            return Shape(0.5, rises=self.rises, log=self.file.stimulus.scale == "log", floor=floor)
+            log = self.file.stimulus.scale == "log"
+            return Shape(0.5, rises=self.rises, log=log, rest="bias" if self.compares else "floor")
         grows = self.difference(len(self.stimuli) - 1) >= self.difference(0) or self.reference is not None
-        return Shape(1 / self.intervals, one_sided=True, rises=grows, reference=self.no_difference)
-
-    @property
-    def no_difference(self) -> float:
-        """The level at which the intervals do not differ; 0 if they differ in the solver."""
-        return self.reference or 0.0
+        none = self.reference or 0.0  # the level at which nothing differs; 0 if the intervals differ in the solver
+        below = self.levels[0] < none
+        rest: Literal["", "bias"] = "bias" if self.intervals == 2 else ""
+        return Shape(1 / self.intervals, one_sided=True, rises=grows, reference=none, below=below, rest=rest)
 
     @property
     def easiest(self) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,22 +25,26 @@ class Shape:
     Without `one_sided` it is that of "yes" or of "the comparison": it crosses 1/2 at the threshold, a normal function.
     With it, it is that of a right answer: a Weibull function of the distance from the reference, half-way between guess
     and 1 at the threshold.
+
+    `rest` is what else the answers depend on. floor: of yes or no, a probability of false alarms. bias: of two
+    intervals, towards the first one, in standard deviations of what decides; else a bias would look like noise.
     """
 
     guess: float  # probability of the counted answer of a person who only guesses
     one_sided: bool = False
     rises: bool = True  # with the level
     reference: float = 0.0  # level at which nothing differs
+    below: bool = False  # one-sided: the levels are below the reference
     log: bool = False  # a normal function of the level's logarithm
-    floor: bool = False  # the probability may end at more than 0: false alarms
+    rest: Literal["", "floor", "bias"] = ""
 
     def axis(self, levels: npt.ArrayLike) -> Array:
         """The variable in which the function has a place and a width, of each level."""
-        x = np.asarray(levels, np.float64)
+        x = np.array(levels, np.float64)
+        if self.one_sided:  # a difference that was felt the other way round is none
+            x = self.reference - x if self.below else x - self.reference
         with np.errstate(divide="ignore"):
-            if self.one_sided:
-                return np.log(np.abs(x - self.reference))
-            return np.log(x) if self.log else x.copy()
+            return np.log(np.maximum(x, 0.0)) if self.one_sided or self.log else x
 
     def level(self, u: npt.ArrayLike) -> Array:
         """The distance from the reference (one-sided) or the level of a value of `axis`."""
@@ -51,21 +55,23 @@ class Shape:
 class Sizes(NamedTuple):
     """Number of values of each parameter."""
 
-    place: int = 41
-    width: int = 19
-    lapse: int = 5
-    floor: int = 5
+    place: int
+    width: int
+    rest: int
+    lapse: int
 
 
-FIT, QUEST = Sizes(), Sizes(31, 10, 3, 3)
-MOST_LAPSE, MOST_FLOOR = 0.25, 0.45
+FIT = (Sizes(31, 15, 7, 5), *[Sizes(25, 13, 7, 6)] * 3)  # each finer where the last one has its weight
+QUEST = Sizes(31, 10, 3, 3)
+MOST_LAPSE, MOST_FLOOR, MOST_BIAS = 0.25, 0.45, 2.0
+BIAS = 0.7  # standard deviation of its prior
 
 
 class Grid:
     """Combinations of parameters, each with its prior: (cells,) each."""
 
-    def __init__(self, shape: Shape, levels: npt.ArrayLike, sizes: Sizes = FIT, near: Sequence[Array] = ()) -> None:
-        """levels: those that are shown. near: bounds of place, log of width, lapse and floor; default: wide ones."""
+    def __init__(self, shape: Shape, levels: npt.ArrayLike, sizes: Sizes, near: Sequence[Array] = ()) -> None:
+        """levels: those that are shown. near: bounds of place, log of width, rest and root of lapse; default: wide."""
         self.shape = shape
         shown = shape.axis(levels)
         shown = shown[np.isfinite(shown)]
@@ -75,33 +81,51 @@ class Grid:
         widest: Sequence[Array | tuple[float, float]] = (
             (low - spread / 2, high + spread / 2),
             np.log(spread * np.array([0.02, 2.0])),
-            (0.0, MOST_LAPSE),
-            (0.0, MOST_FLOOR),
+            (0.0, MOST_FLOOR) if shape.rest == "floor" else (-MOST_BIAS, MOST_BIAS),
+            (0.0, np.sqrt(MOST_LAPSE)),
         )
         axes = [np.linspace(ends[0], ends[1], count) for ends, count in zip(near or widest, sizes, strict=True)]
-        if not shape.floor:
-            axes[3] = np.zeros(1)
+        if not shape.rest:
+            axes[2] = np.zeros(1)
         self.parts = [part.ravel() for part in np.meshgrid(*axes, indexing="ij")]  # as near
-        self.place, width, self.lapse, self.floor = self.parts
-        self.width = np.exp(width)
+        self.place, width, rest, root = self.parts
+        self._lapses = len(axes[3])
+        self.width, self.lapse = np.exp(width), root**2
+        self.narrowest = float(np.exp(widest[1][0]))
+        self.bias = rest if shape.rest == "bias" else np.zeros(1)
+        self.floor = rest if shape.rest == "floor" else np.zeros(1)
         outside = np.maximum(np.maximum(low - self.place, self.place - high), 0) / (spread / 2)
-        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * (1 - self.lapse) ** 9  # the width's is flat in its log
-        prior = prior * (1 - self.floor)
-        if shape.one_sided:
-            prior = prior * np.sqrt(shape.level(self.place))  # between flat in the distance and in its logarithm
+        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** 19
+        prior = prior * (1 - self.floor) * np.exp(-((self.bias / BIAS) ** 2) / 2)
+        # Of right answers the width is flat in its logarithm, and the distance between that and flat.
+        prior = prior * (np.sqrt(shape.level(self.place)) if shape.one_sided else self.width)
         self.prior: Array = prior / prior.sum()
         # Where the function of place and width has the probability 1/2, less its place, in widths: with a floor the
         # place is that of half the answers, else the floor would move it.
         self._shift = ndtri((0.5 - self.floor) / (1 - self.floor))
 
-    def probability(self, levels: npt.ArrayLike) -> Array:
-        """Of the counted answer: (levels, cells)."""
+    def probability(self, levels: npt.ArrayLike, sides: npt.ArrayLike = 0.0) -> Array:
+        """Of the counted answer: (levels, cells). sides: 1 where the first interval is the counted one, -1 the second.
+
+        Without `sides` it is that of a person without bias.
+        """
+        n = self._lapses  # next to each other are cells that differ in the lapses alone
         u = self.shape.axis(levels)[:, None]
-        z = (u - self.place) / self.width * (1 if self.shape.rises else -1)
+        z = (u - self.place[::n]) / self.width[::n] * (1 if self.shape.rises else -1)
+        bias = np.reshape(sides, (-1, 1)) * self.bias[::n]
         if self.shape.one_sided:
             core = self.shape.guess + (1 - self.shape.guess) * -np.expm1(-np.log(2) * np.exp(np.minimum(z, 30)))
+            core = ndtr(ndtri(core) + bias) if np.any(bias) else core
         else:
-            core = self.floor + (1 - self.floor) * ndtr(z + self._shift)
+            floor = self.floor[::n]
+            core = floor + (1 - floor) * ndtr(z + self._shift[::n] + bias)
+        return self._lapsed(np.repeat(core, n, axis=1))
+
+    def caught(self) -> Array:
+        """The probability of a yes without what is asked for, or of a right answer that nobody can miss: (cells,)."""
+        return self._lapsed(self.floor if self.shape.rest == "floor" else np.ones(1))
+
+    def _lapsed(self, core: Array) -> Array:
         found: Array = (1 - self.lapse) * core + self.lapse * self.shape.guess
         return np.clip(found, 1e-9, 1 - 1e-9)
 
@@ -120,26 +144,48 @@ class Belief(NamedTuple):
         found: Array = np.interp(shares, below, unique)
         return found
 
+    def density(self, values: Array, at: float) -> float:
+        """Of the probability of the values at one of them, as a share of the largest; 0 outside the grid."""
+        unique, each = np.unique(values, return_inverse=True)
+        mass = np.bincount(each, self.weight, len(unique))
+        return float(mass[np.isclose(unique, at)].sum() / mass.max())
+
     def mean(self, values: Array) -> float:
-        return float(self.weight @ values)
+        return float((self.weight * values).sum())  # BLAS would start threads for it
 
 
-def posterior(shape: Shape, levels: npt.ArrayLike, shown: npt.ArrayLike, counted: npt.ArrayLike) -> Belief:
-    """The belief after trials. levels: all that could be shown. shown, counted (n,): of each trial.
+def posterior(
+    shape: Shape, levels: npt.ArrayLike, shown: npt.ArrayLike, counted: npt.ArrayLike, sides: npt.ArrayLike = 0.0,
+    catch: tuple[float, float] = (0, 0),
+) -> Belief:  # fmt: skip
+    """The belief after trials. levels: all that could be shown. shown, counted, sides (n,): of each trial.
 
-    A second grid is finer where the first one has its weight.
+    catch: counted answers of the catch trials, and their number.
     """
-    at, each = np.unique(np.asarray(shown, np.float64), return_inverse=True)
-    total = np.bincount(each, minlength=len(at)).astype(np.float64)
-    hits = np.bincount(each, np.asarray(counted, np.float64), len(at)).astype(np.float64)
-    belief = _weighed(Grid(shape, levels), at, hits, total)
-    near = [_around(belief, values) for values in belief.grid.parts]
-    return _weighed(Grid(shape, levels, FIT, near), at, hits, total)
+    trials = np.column_stack(np.broadcast_arrays(np.asarray(shown, np.float64), sides))
+    cells, each = np.unique(trials, axis=0, return_inverse=True)
+    hits = np.bincount(each.ravel(), np.asarray(counted, np.float64), len(cells)).astype(np.float64)
+    total = np.bincount(each.ravel(), minlength=len(cells)).astype(np.float64)
+    data = _Data(cells[:, 0], cells[:, 1], hits, total, catch)
+    belief = _weighed(Grid(shape, levels, FIT[0]), data)
+    for sizes in FIT[1:]:
+        near = [_around(belief, values) for values in belief.grid.parts]
+        belief = _weighed(Grid(shape, levels, sizes, near), data)
+    return belief
 
 
-def _weighed(grid: Grid, at: Array, hits: Array, total: Array) -> Belief:
-    p = grid.probability(at)
-    log = hits @ np.log(p) + (total - hits) @ np.log1p(-p) + np.log(np.maximum(grid.prior, 1e-300))
+class _Data(NamedTuple):
+    at: Array
+    sides: Array
+    hits: Array
+    total: Array
+    catch: tuple[float, float]
+
+
+def _weighed(grid: Grid, data: _Data) -> Belief:
+    p, caught = grid.probability(data.at, data.sides), grid.caught()
+    log = data.hits @ np.log(p) + (data.total - data.hits) @ np.log1p(-p) + np.log(np.maximum(grid.prior, 1e-300))
+    log = log + data.catch[0] * np.log(caught) + (data.catch[1] - data.catch[0]) * np.log1p(-caught)
     weight = np.exp(log - log.max())
     return Belief(grid, weight / weight.sum())
 
@@ -147,5 +193,5 @@ def _weighed(grid: Grid, at: Array, hits: Array, total: Array) -> Belief:
 def _around(belief: Belief, values: Array) -> Array:
     """The bounds of the values that have any weight, and one value more on either side."""
     unique, at = np.unique(values, return_inverse=True)
-    heavy = np.flatnonzero(np.bincount(at, belief.weight, len(unique)) > 1e-5)
+    heavy = np.flatnonzero(np.bincount(at, belief.weight, len(unique)) > 1e-3)
     return unique[[max(heavy[0] - 1, 0), min(heavy[-1] + 1, len(unique) - 1)]]

@@ -1,4 +1,4 @@
-"""The report of an experiment: one page, report.md, with a picture of each psychometric function."""
+"""The report of an experiment: one page, report.md, with a picture of each function."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from punctura.files.whole_file import private_folder, write_whole
-from punctura.perception.analysis import LEVEL, Analysis, Estimate, analyse, answers_of, belief_of
+from punctura.perception.analysis import LEVEL, SHARES, Analysis, Answers, Estimate, analyse, answers_of, belief_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import SessionError, check_header, delete_participant, read_session, sessions
 from punctura.perception.table import TABLES, save_tables
 from punctura.results import JsonObject
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 MOST_PANELS = 12
-COUNTED = {(True, False): "yes", (False, True): "comparison", (False, False): "right"}  # yes_no, compares
 WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)
 
 
@@ -27,7 +30,7 @@ def write_report(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]
     private_folder(folder)
     found = analyse(protocol, {name: lines[1:] for name, lines in sessions.items()})
     save_tables(protocol, sessions, folder)
-    write_whole(folder / "results.json", (json.dumps(asdict(found), indent=1) + "\n").encode(), private=True)
+    write_whole(folder / "results.json", json_of(found).encode(), private=True)
     picture = _draw(protocol, found, sessions)
     if picture:
         write_whole(folder / "functions.svg", picture, private=True)
@@ -57,26 +60,39 @@ def forget(folder: Path, participant: str) -> list[Path]:
     return deleted + computed
 
 
-def words(one: Estimate | None, digits: int = 3) -> str:
-    """The number and its interval."""
-    return "-" if one is None else f"{one.value:.{digits}g} ({one.low:.{digits}g} to {one.high:.{digits}g})"
+def words(one: Estimate | None) -> str:
+    """The number and its interval, or the bound that the answers set."""
+    if one is None or not np.isfinite([one.low, one.high]).any():
+        return "-"
+    if not np.isfinite(one.high):
+        return f"at least {one.low:.3g}"
+    return f"{one.value:.3g} ({one.low:.3g} to {one.high:.3g})" if np.isfinite(one.low) else f"at most {one.high:.3g}"
+
+
+def json_of(found: Analysis) -> str:
+    """What is not finite is null: JSON has no infinite numbers."""
+    plain = json.loads(json.dumps(asdict(found)), parse_constant=lambda word: None)
+    return json.dumps(plain, indent=1) + "\n"
 
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     file, unit = protocol.file, found.unit
-    keys = {"slope": f"points for each {unit}"}
+    keys = {"slope": "exponent" if file.task == "magnitude" else f"points for each {unit}"}
     if not protocol.rates:
         keys = {"threshold": f"threshold, {unit}", "jnd": f"JND, {unit}", "weber": "Weber fraction", "lapse": "lapses"}
+        keys |= {"first": "first if equal"} if file.task == "two_intervals" else {}
+    shares = "right" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable} in {unit}, fitted against "
         f"{what}. Intervals are {LEVEL:.0%} intervals. Source of the protocol: {file.source or 'not given'}.", "",
-        f"| participant | trials | {' | '.join(keys.values())} | right in each block |",
+        f"| participant | trials | {' | '.join(keys.values())} | {shares} in each block |",
         f"|---|---|{'---|' * len(keys)}---|",
     ]  # fmt: skip
     for one in found.people:
-        blocks = ", ".join("-" if share is None else f"{share:.0%}" for share in one.right_by_block)
+        form = ".3g" if protocol.rates or protocol.adjusts else ".0%"
+        blocks = ", ".join("-" if share is None else format(share, form) for share in one.by_block)
         cells = [words(getattr(one, key)) for key in keys]
         if one.reason:
             cells = [one.reason, *[""] * (len(keys) - 1)]
@@ -104,36 +120,57 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
 
 
 def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[JsonObject]]) -> bytes | None:
-    """The first people with a threshold: shares at the levels, the mean function and its 95 % band."""
+    """The first people with a result: the mean answer at each level, and the function with its 95 % band."""
     from matplotlib.figure import Figure
 
     from punctura.reproduce.style import figure_style
 
-    people = [one for one in found.people if one.threshold is not None][:MOST_PANELS]
+    people = [one for one in found.people if not one.reason][:MOST_PANELS]
     if not people:
         return None
     across = min(3, len(people))
     down = -(-len(people) // across)
-    levels = np.asarray(protocol.levels)
-    curve = np.linspace(levels[0], levels[-1], 121)
     with figure_style():
         figure = Figure(figsize=(2.6 * across, 2.3 * down), layout="constrained")
         for number, one in enumerate(people, 1):
-            answers = answers_of(protocol, sessions[one.participant][1:])
-            belief = belief_of(protocol, answers)
-            p = belief.grid.probability(curve)
-            mean = p @ belief.weight
-            band = np.array([belief.quantiles(row, (0.025, 0.975)) for row in p])
             panel = figure.add_subplot(down, across, number)
-            panel.fill_between(curve, band[:, 0], band[:, 1], color="0.85", lw=0)
-            panel.plot(curve, mean, color="0.2", lw=1.2)
-            for level in np.unique(answers.level):
-                here = answers.counted[answers.level == level]
-                panel.plot(level, here.mean(), "o", ms=2 + np.sqrt(len(here)) / 2, color="0.2", mfc="none")
-            panel.set_ylim(-0.03, 1.03)
+            _panel(panel, protocol, answers_of(protocol, sessions[one.participant][1:]))
             panel.set_title(one.participant)
-            panel.set_xlabel(f"{protocol.file.stimulus.variable}, {protocol.unit}")
-            panel.set_ylabel(COUNTED[protocol.file.task == "yes_no", protocol.compares])
         data = io.BytesIO()
         figure.savefig(data, format="svg", metadata={"Date": None})
     return data.getvalue()
+
+
+def _panel(panel: Axes, protocol: Protocol, answers: Answers) -> None:
+    variable = f"{protocol.file.stimulus.variable}, {protocol.unit}"
+    panel.set_xlabel("setting" if protocol.adjusts else variable)
+    panel.set_ylabel(variable if protocol.adjusts else _counted(protocol))
+    if protocol.adjusts:
+        panel.plot(np.arange(len(answers.x)) + 1, answers.x, "o", ms=4, color="0.2", mfc="none")
+        panel.axhline(answers.x.mean(), color="0.2", lw=1.2)
+        return
+    curve = np.linspace(protocol.levels[0], protocol.levels[-1], 121)
+    for level in np.unique(answers.level):
+        here = answers.level == level
+        size = 2 + np.sqrt(here.sum()) / 2
+        panel.plot(answers.x[here].mean(), answers.counted[here].mean(), "o", ms=size, color="0.2", mfc="none")
+    if protocol.rates:
+        log = protocol.file.task == "magnitude"
+        x, y = (np.log(one[answers.x > 0]) if log else one for one in (answers.x, answers.counted))
+        line = np.polyval(np.polyfit(x, y, 1), np.log(curve) if log else curve)
+        panel.plot(curve, np.exp(line) if log else line, color="0.2", lw=1.2)
+        return
+    belief = belief_of(protocol, answers)
+    p = belief.grid.probability(curve)
+    band = np.array([belief.quantiles(row, SHARES) for row in p])
+    panel.fill_between(curve, band[:, 0], band[:, 1], color="0.85", lw=0)
+    panel.plot(curve, p @ belief.weight, color="0.2", lw=1.2)
+    panel.set_ylim(-0.03, 1.03)
+    panel.set_xscale(protocol.file.stimulus.scale)
+
+
+def _counted(protocol: Protocol) -> str:
+    """What the function gives: the share of these answers, or the mean of these points."""
+    if protocol.rates or protocol.adjusts:
+        return "points" if protocol.rates else "setting"
+    return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right"

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from punctura.perception.analysis import answers_of
+from punctura.perception.analysis import felt_level
+from punctura.perception.course import counted
 from punctura.perception.protocol import Protocol
 from punctura.results import JsonObject
 from punctura.ticks.files import save
@@ -24,7 +25,7 @@ DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("felt_level", pa.float64(), "that of the variable", "the level as it was felt, if the variable is in newtons"),
     ("position", pa.int64(), "", "interval of the comparison, from 0"),
     ("answer", pa.string(), "", "as the task names it"),
-    ("counted", pa.bool_(), "", "whether the answer is yes, the comparison or right; empty for rating"),
+    ("counted", pa.bool_(), "", "whether the answer is yes, the comparison or right; empty for numbers and settings"),
     ("drop_N", pa.float64(), "N", "felt drop at the pop of the judged membrane, in the comparison"),
     ("peak_N", pa.float64(), "N", "largest felt force of the comparison"),
     ("roughness_N", pa.float64(), "N", "rms of what changes faster than 20 ms before the pop, in the comparison"),
@@ -47,15 +48,15 @@ def table_of(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]]) -
 
 
 def _row(protocol: Protocol, header: JsonObject, line: JsonObject) -> JsonObject:
-    found = answers_of(protocol, [line | {"kind": "trial"}])
+    lacks = protocol.rates or protocol.adjusts
     felt = list(line["felt"])
     mine = felt.pop(int(line["position"]))
     row = {name: line[name] for name in ("trial", "block", "kind", "level", "position", "answer", "time")}
     row |= {
         "participant": header["participant"],
         "participant_number": header["number"],
-        "felt_level": float(found.x[0]) if protocol.in_newtons else None,
-        "counted": None if protocol.rates else bool(found.counted[0]),
+        "felt_level": felt_level(protocol, line)[0] if protocol.in_newtons else None,
+        "counted": None if lacks else bool(counted(protocol, int(line["position"]), str(line["answer"]))),
         "force_scale": mine["scale"],
         "recordings": ";".join(line.get("recordings", ())),
     }

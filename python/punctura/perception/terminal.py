@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -83,7 +84,7 @@ def run_session(protocol: Protocol, folder: Path, participant: str, terminal: Te
             if block is not None and trial.block != block:
                 _pause(terminal, file.trials.break_s)
             block = trial.block
-            say(f"Trial {trial.number + 1} of {len(session.course)}{', practice' * (trial.kind == 'practice')}")
+            say(f"Trial {session.course.at + 1} of {len(session.course)}{', practice' * (trial.kind == 'practice')}")
             shown, names = _presented(protocol, folder, participant, trial, terminal)
             answer = _answer(protocol, terminal)
             _saved(session, trial, answer, shown, names, terminal)
@@ -106,10 +107,12 @@ def _answer(protocol: Protocol, terminal: Terminal) -> str:
     keys = {key.casefold(): name for name, key in protocol.answers.items()}
     choice = ", ".join(f"{key} = {name}" for name, key in protocol.answers.items())
     while True:
-        typed = terminal.ask(f"{protocol.file.question} ({choice}): ").strip().casefold()
+        typed = terminal.ask(f"{protocol.file.question} ({choice or 'a number above 0'}): ").strip().casefold()
         if typed in keys:
             return keys[typed]
-        terminal.say(f"Type one of the keys {', '.join(protocol.answers.values())}.")
+        if not keys and re.fullmatch(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}", typed) and float(typed) > 0:
+            return typed
+        terminal.say(f"Type one of the keys {', '.join(protocol.answers.values())}." if keys else "Type such as 2.5.")
 
 
 def _saved(

@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from protocols import COMPARES, RIGHT, YES, written
-from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol
+from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, written
+from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol, read_session
 from punctura.perception.analysis import person
 from punctura.perception.observer import Senses
 from punctura.perception.power import power, with_trials
 from punctura.perception.psychometric import Shape, posterior
+from punctura.perception.report import json_of, words
 from scipy.optimize import minimize
 from scipy.special import ndtr
 
 SHARP = Observer(weber=0.06)
+FAINT = Observer(noise=0.03)
 TEXTS = {"compares": COMPARES, "right": RIGHT, "yes": YES}
+Row = tuple[str, str, int, Observer]
+ROWS: list[Row] = [
+    ("compares", "constant", 240, Observer(weber=0.06, bias=0.02)),
+    ("compares", "quest", 120, SHARP),
+    ("right", "constant", 240, SHARP),
+    ("right", "staircase", 120, SHARP),
+    ("right", "quest", 120, SHARP),
+    ("yes", "constant", 240, FAINT),
+    ("yes", "staircase", 120, FAINT),
+    ("yes", "quest", 80, FAINT),
+]
 
 
 @pytest.fixture(scope="module")
@@ -32,9 +46,11 @@ def lines(protocol: Protocol, counted: object) -> list[dict[str, object]]:
     found = []
     for i in range(20):
         for level in protocol.levels:
-            hit = bool(counted(level, i))  # type: ignore[operator]
-            answer = list(protocol.answers)[0 if hit else 1]
-            found.append({"kind": "trial", "block": 0, "level": level, "position": 0, "answer": answer, "felt": []})
+            hit, position = bool(counted(level, i)), i % protocol.intervals  # type: ignore[operator]
+            answer = [*protocol.answers, "1", "1"][position if hit else 1 - position]
+            found.append(
+                {"kind": "trial", "block": 0, "level": level, "position": position, "answer": answer, "felt": []}
+            )
     return found
 
 
@@ -59,46 +75,67 @@ def test_the_posterior_agrees_with_the_largest_likelihood() -> None:
 @pytest.mark.parametrize("name", TEXTS)
 def test_the_threshold_of_an_observer_is_found(senses: dict[str, Senses], name: str) -> None:
     """20 sessions: intervals of 95 % hold the truth 15 times or less with a probability of 0.3 %."""
-    found = coverage(senses[name].protocol, SHARP, 20, 5, senses[name])
-    assert found.without <= 3
-    assert round(found.covered * (found.sessions - found.without)) >= 16 - found.without
+    found = coverage(senses[name].protocol, SHARP, 20, 5, senses[name])["threshold"]
+    assert found.without <= 0.15
+    assert found.covered * (1 - found.without) > 0.77 - found.without
     assert abs(found.bias) < 0.1
 
 
 @pytest.mark.statistics
-@pytest.mark.parametrize("name", ["compares", "right"])
-def test_95_percent_of_the_intervals_hold_the_threshold(senses: dict[str, Senses], name: str) -> None:
-    """400 sessions of constant stimuli, with the figures of docs/decisions/perception.md."""
-    file = senses[name].protocol.file.model_copy(update={"method": "constant"})
-    protocol = with_trials(replace(senses[name].protocol, file=file), 240)
-    found = coverage(protocol, SHARP, 400, 1000, senses[name])
-    assert found.without <= 4
-    assert 0.93 <= found.covered <= 0.97
-    assert abs(found.bias) < 0.02
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(row[:2]))
+def test_95_percent_of_the_intervals_hold_what_is_known(senses: dict[str, Senses], row: Row) -> None:
+    """The rows of docs/decisions/perception.md, whose figures it prints. Of 100 sessions 88 or more hold it."""
+    name, method, trials, observer = row
+    file = senses[name].protocol.file.model_copy(update={"method": method})
+    protocol = with_trials(replace(senses[name].protocol, file=file), trials)
+    for found in coverage(protocol, observer, 100, 1000, senses[name]).values():
+        print(name, method, found)
+        assert found.covered >= 0.88 and found.without <= 0.1
+        assert found.what != "threshold" or abs(found.bias) < 0.03
 
 
 def test_the_just_noticeable_difference_is_that_of_the_noise(senses: dict[str, Senses]) -> None:
     """Of both intervals together: sqrt(2) times the Weber fraction, and 0.6745 of that up to 75 %."""
     simulation = Simulation(senses["compares"].protocol, SHARP, senses["compares"])
     truth = (simulation.threshold(0.75) - simulation.threshold(0.25)) / 2
+    assert simulation.jnd() == truth
     results = [person(simulation.protocol, "", simulation.run(i, i)) for i in range(20)]
     jnds = [one.jnd for one in results if one.jnd is not None]
     assert len(jnds) == 20
-    assert np.mean([one.value for one in jnds]) == pytest.approx(truth, rel=0.15)
+    assert np.nanmean([one.value for one in jnds]) == pytest.approx(truth, rel=0.15)
     assert sum(one.low <= truth <= one.high for one in jnds) >= 15
     assert results[0].weber is not None and results[0].jnd is not None
-    assert results[0].weber.value == pytest.approx(results[0].jnd.value / 0.41)
+    assert results[0].weber.high == pytest.approx(results[0].jnd.high / 0.41)
 
 
-def test_a_bias_moves_the_point_of_subjective_equality(senses: dict[str, Senses]) -> None:
-    """A comparison that is felt as stronger needs less to seem equal."""
-    places = []
-    for bias in (-0.03, 0.0, 0.03):
-        one = Simulation(senses["compares"].protocol, Observer(weber=0.06, bias=bias), senses["compares"])
-        result = person(one.protocol, "", one.run(0, 3))
-        assert result.threshold is not None
-        places.append(result.threshold.value)
-    assert places[0] > places[1] + 0.03 and places[1] > places[2] + 0.03
+def test_a_bias_towards_an_interval_is_neither_a_shift_nor_noise(senses: dict[str, Senses]) -> None:
+    """And it is told: the first interval is chosen in most of the trials whose intervals are equal."""
+    biased = Simulation(senses["compares"].protocol, replace(SHARP, bias=0.02), senses["compares"])
+    results = [person(biased.protocol, "", biased.run(i, i)) for i in range(20)]
+    threshold, jnd, first = (
+        np.mean([getattr(one, key).value for one in results]) for key in ("threshold", "jnd", "first")
+    )
+    assert threshold == pytest.approx(biased.threshold(), rel=0.02) and jnd == pytest.approx(biased.jnd(), rel=0.2)
+    assert first == pytest.approx(ndtr(0.02 / (0.06 * np.sqrt(2) * 0.318)), abs=0.05)  # the reference drops by 0.318 N
+
+
+def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> None:
+    """Hands that feel less than was planned, and each time something else."""
+    protocol = load_protocol(written(tmp_path, SOLVED))
+    senses, random = Senses(protocol), np.random.default_rng(1)
+    for one in (*protocol.stimuli, protocol.references[0]):
+        felt = [0.7 * one.level + 0.03 * random.standard_normal() for _ in range(8)]
+        senses.put(one, [replace(one.felt, drop=drop) for drop in felt])
+    found = coverage(protocol, Observer(weber=0.1), 20, 1, senses)
+    assert all(found[what].covered >= 0.8 and found[what].without <= 0.1 for what in ("threshold", "jnd"))
+    assert abs(found["jnd"].bias) < 0.1
+    simulation = Simulation(protocol, Observer(weber=0.1), senses)
+    one = person(protocol, "", simulation.run(0, 1))
+    assert one.weber is not None and one.jnd is not None
+    felt_reference = np.mean([felt.drop for felt in senses.all(protocol.references[0])])
+    assert one.weber.value == pytest.approx(one.jnd.value / felt_reference, rel=0.02)
+    shape = Shape(0.5, one_sided=True, reference=0.3)
+    assert shape.axis([0.2, 0.4]) == pytest.approx([-np.inf, np.log(0.1)])  # felt the other way round: no difference
 
 
 def test_no_number_without_enough_answers(senses: dict[str, Senses]) -> None:
@@ -107,7 +144,7 @@ def test_no_number_without_enough_answers(senses: dict[str, Senses]) -> None:
     assert few.threshold is None and few.reason == "30 answers are too few for a threshold: 40 are needed"
     same = person(protocol, "", lines(protocol, lambda level, i: True))
     assert same.threshold is None and "every answer was the comparison" in same.reason
-    flat = person(protocol, "", lines(protocol, lambda level, i: i % 2))
+    flat = person(protocol, "", lines(protocol, lambda level, i: i // 2 % 2))
     assert flat.threshold is None and "hardly depend on the level" in flat.reason
     beyond = person(protocol, "", lines(protocol, lambda level, i: level > 0.6 and i % 3 == 0))
     assert beyond.threshold is None and "outside the levels" in beyond.reason
@@ -123,20 +160,55 @@ def test_a_catch_trial_below_the_reference_is_right_if_the_reference_is_chosen(s
     assert (found.catch_trials, found.catch_counted) == (2, 1)
 
 
-def test_dprime_and_criterion(senses: dict[str, Senses]) -> None:
-    """Two normal distributions one d' apart: 84 % hits and 50 % false alarms are d' = 1 and a criterion of -0.5."""
-    protocol = senses["yes"].protocol
-    session = [
-        {"kind": kind, "block": 0, "level": 0.001, "position": 0, "answer": "yes" if i < hits else "no", "felt": []}
-        for kind, hits in (("trial", 841), ("catch", 500))
-        for i in range(1000)
-    ]
-    (found,) = person(protocol, "", session).detection
-    assert found.dprime.value == pytest.approx(1.0, abs=0.01) and found.criterion is not None
+def answered(cells: dict[tuple[str, int, str], tuple[int, int]]) -> list[dict[str, object]]:
+    """cells: kind, position of the comparison and answer; how often that answer was given, and in how many trials."""
+    other = {"yes": "no", "first": "second", "second": "first"}
+    return [
+        {"kind": kind, "block": 0, "level": 0.001, "position": position, "felt": [],
+         "answer": answer if i < hits else other[answer]}
+        for (kind, position, answer), (hits, total) in cells.items()
+        for i in range(total)
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "dprime"), [("yes", 1.0), ("compares", np.sqrt(0.5)), ("right", np.sqrt(0.5))])
+def test_dprime_and_criterion(senses: dict[str, Senses], name: str, dprime: float) -> None:
+    """84 % and 50 %: of hits and false alarms, or of "first" if the comparison is in the first and second interval.
+
+    A bias towards the first interval is in the criterion; the share of right answers alone would give 0.62 for 0.71.
+    """
+    cells = {("trial", 0, "first"): (841, 1000), ("trial", 1, "first"): (500, 1000)}
+    if name == "yes":
+        cells = {("trial", 0, "yes"): (841, 1000), ("catch", 0, "yes"): (500, 1000)}
+    (found,) = person(senses[name].protocol, "", answered(cells)).detection
+    assert found.dprime.value == pytest.approx(dprime, abs=0.01)
     assert found.criterion.value == pytest.approx(-0.5, abs=0.01)
-    assert found.dprime.low < 1.0 < found.dprime.high < found.dprime.low + 0.25
-    without = person(protocol, "", [line | {"kind": "trial"} for line in session])
-    assert without.detection == []  # no false alarms are known
+    assert found.dprime.low < dprime < found.dprime.high < found.dprime.low + 0.25
+    always = {key: (total, total) if n == 0 else (hits, total) for n, (key, (hits, total)) in enumerate(cells.items())}
+    (found,) = person(senses[name].protocol, "", answered(always)).detection
+    assert found.dprime.high == np.inf and np.isnan(found.dprime.value) and words(found.dprime).startswith("at least ")
+    assert words(found.criterion).startswith("at most -")
+    assert person(senses[name].protocol, "", answered(cells)[:1004]).detection == []  # 4 answers are no rate
+
+
+def test_answers_that_change_at_once_give_a_jnd_no_lower_bound(senses: dict[str, Senses]) -> None:
+    protocol = senses["compares"].protocol
+    found = person(protocol, "", lines(protocol, lambda level, i: level > 0.41))
+    assert found.threshold is not None and 0.36 < found.threshold.low < found.threshold.high < 0.46
+    assert words(found.jnd).startswith("at most 0.0") and words(found.weber).startswith("at most ")
+    assert '"jnd": [\n    null,\n    null' in json_of(
+        analyse(protocol, {"P01": lines(protocol, lambda x, i: x > 0.41)})
+    )
+
+
+def test_catch_trials_are_in_the_fit() -> None:
+    """They tell false alarms and lapses, which the levels hardly do."""
+    shown, hits = np.repeat([1.0, 2.0, 3.0, 4.0], 20), np.tile([1, 1, 0, 1], 20)
+    for shape, caught, truth in ((Shape(0.5, rest="floor"), (40, 100), 0.4), (Shape(0.5), (90, 100), 0.2)):
+        belief = posterior(shape, [1.0, 4.0], shown, hits, catch=caught)
+        values = belief.grid.floor if shape.rest else belief.grid.lapse
+        low, high = belief.quantiles(values, (0.025, 0.975))
+        assert low < truth < high < low + 0.25
 
 
 def test_the_slope_of_ratings(tmp_path: Path) -> None:
@@ -155,6 +227,39 @@ def test_the_slope_of_ratings(tmp_path: Path) -> None:
     assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
     same = person(protocol, "", [line | {"answer": "5"} for line in ratings])
     assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
+
+
+def test_the_exponent_of_magnitudes(tmp_path: Path) -> None:
+    """Numbers that a person chooses, of a power of the level."""
+    text = COMPARES.replace('"two_intervals"', '"magnitude"').replace("reference = 0.41\n", "")
+    protocol = load_protocol(written(tmp_path, text))
+    numbers = [
+        line | {"answer": f"{30 * float(str(line['level'])) ** 0.8:.6g}"}
+        for line in lines(protocol, lambda level, i: True)
+    ]
+    found = person(protocol, "", numbers)
+    assert found.slope is not None and found.slope == pytest.approx((0.8, 0.8, 0.8), rel=1e-4)
+
+
+def test_an_adjustment_ends_where_both_intervals_seem_equal(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, ADJUST))
+    simulation = Simulation(protocol, SHARP)
+    session = simulation.run(0, 3)
+    found, settings = person(protocol, "", session), [line for line in session if line["answer"] == "equal"]
+    levels = [float(str(line["level"])) for line in settings]
+    assert found.trials == len(levels) == 12 and found.threshold is not None and found.jnd is not None
+    starts = [session[0], *(line for before, line in pairwise(session) if before["answer"] == "equal")]
+    assert sorted(float(str(line["level"])) for line in starts) == [0.26] * 6 + [0.56] * 6
+    assert found.threshold.low < 0.41 < found.threshold.high and found.threshold.value == pytest.approx(np.mean(levels))
+    assert found.jnd.low < found.jnd.value < found.jnd.high
+    assert found.jnd.value == pytest.approx(0.67449 * np.std(levels, ddof=1), rel=1e-4)
+    assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(11 / 3.81575), rel=1e-4)  # chi square, 2.5 %
+    simulation.run_on_disk(tmp_path / "out", "P01", 3)
+    path = tmp_path / "out" / "P01.jsonl"
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    assert simulation.run_on_disk(tmp_path / "out", "P01", 3) == 12
+    assert [line["answer"] for line in read_session(path)[1:]] == [line["answer"] for line in session]
 
 
 def test_means_of_people_need_two(senses: dict[str, Senses]) -> None:

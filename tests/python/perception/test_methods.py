@@ -40,7 +40,7 @@ def test_catch_and_practice_trials_are_where_they_belong(tmp_path: Path) -> None
     assert kinds[2:32] != sorted(kinds[2:32])  # among the others
 
 
-def test_participants_of_a_group_balance_the_interval(tmp_path: Path) -> None:
+def test_the_interval_is_balanced_over_a_group_and_over_each_level(tmp_path: Path) -> None:
     protocol = load_protocol(written(tmp_path, COMPARES))
     orders = []
     for participant in range(4):
@@ -51,7 +51,7 @@ def test_participants_of_a_group_balance_the_interval(tmp_path: Path) -> None:
         orders.append(order)
     mirrored = [(level, 1 - position) for level, position in orders[0]]
     assert orders[1] == mirrored and orders[2] != orders[0]
-    assert sum(position for _, position in orders[0]) == len(orders[0]) / 2
+    assert set(Counter(orders[0]).values()) == {10}  # of 20 trials a level
 
 
 def test_a_staircase_stays_where_three_of_four_answers_are_right(right: Protocol) -> None:

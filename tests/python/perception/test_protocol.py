@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from protocols import COMPARES, RIGHT, YES, written
+from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, written
 from punctura import ConfigurationError
 from punctura._core import ForceLimits
 from punctura.perception import Observer, Simulation, load_protocol, protocol_names
@@ -13,22 +13,6 @@ from punctura.perception.analysis import person
 from punctura.perception.course import Course
 from punctura.perception.stimulus import simulated
 from punctura.perception.terminal import check_device
-
-SOLVED = """
-title = "Solved"
-question = "Which one fell more?"
-scene = "k06-fig10"
-method = "constant"
-task = "two_intervals"
-[stimulus]
-variable = "drop_N"
-levels = [0.25, 0.3, 0.35]
-reference = 0.3
-solve = "membrane[0].precompression"
-between = [0.0, 1.5]
-[trials]
-per_level = 20
-"""
 
 
 def problems(folder: Path, text: str) -> dict[str, str]:
@@ -61,9 +45,11 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (RIGHT.replace('"quest"', '"staircase"'), "[trials]", "[trials]\nup = 1", "trials.up", "guessing gives"),
         (COMPARES, "levels = [0.2,", "levels = [0.9,", "stimulus.levels", "larger than the one before"),
         (COMPARES, "levels = [0.2,", "levels = [nan,", "stimulus.levels", "larger than the one before"),
-        (YES, "levels = [0.0002,", "levels = [-0.0002,", "stimulus.levels[0]", "must be"),
+        (YES, "levels = [0.0005,", "levels = [-0.0005,", "stimulus.levels[0]", "must be"),
         (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
         (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
+        (ADJUST, "reference = 0.41", "reference = 0.2", "stimulus.reference", "between the levels"),
+        (ADJUST, 'task = "adjustment"', 'task = "two_intervals"', "method", "both be adjustment"),
         (SOLVED, "0.35]", "2.5]", "stimulus.levels[2]", "no scene gives 2.5 N"),
         (SOLVED, "between = [0.0, 1.5]", "", "stimulus.between", "is missing"),
         (SOLVED, "between = [0.0, 1.5]", "between = [1.5, 0]", "stimulus.between", "the smaller one first"),

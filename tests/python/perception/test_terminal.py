@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
+import wave
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from protocols import COMPARES, YES, written
@@ -202,6 +204,17 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     changed = written(tmp_path, YES.replace("seed = 4", "seed = 5"))
     status, _, err = call(capsys, "analyse", changed)
     assert status == 1 and "another protocol or of a changed one" in err
+
+
+def test_masking_noise_has_as_much_power_in_each_octave(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "noise", "--out", tmp_path / "noise.wav", "--seconds", 2)[0] == 0
+    with wave.open(str(tmp_path / "noise.wav")) as file:
+        rate, sound = file.getframerate(), np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(float)
+    assert len(sound) == 2 * rate and abs(sound).max() == 32_767
+    power, hertz = abs(np.fft.rfft(sound)) ** 2, np.fft.rfftfreq(len(sound), 1 / rate)
+    octaves = [power[(hertz >= low) & (hertz < 2 * low)].sum() for low in (100, 400, 1600, 6400)]
+    assert octaves == pytest.approx([octaves[0]] * 4, rel=0.02)
+    assert abs(sound[0] - sound[-1]) < 5 * np.diff(sound).std()  # it can play in a loop
 
 
 def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path) -> None:
