@@ -1,7 +1,7 @@
 """The gallery: runs each numbered example and draws its picture from the results.
 
-The pictures are made at every build and committed nowhere, because that is cheap: 8 s, of which 5 s are those of the
-two examples that run in real time.
+The pictures are made at every build and committed nowhere, because that is cheap: some 20 s, of which 5 s are those of
+the two examples that run in real time.
 """
 
 from __future__ import annotations
@@ -115,6 +115,36 @@ def healing(axes: Axes, run: Run) -> None:
     axes.set(xlabel="rest between two insertions, s", ylabel="peak of the second one, N", ylim=(0, None))
 
 
+def band(axes: Axes, run: Run) -> None:
+    for edge in ("lower", "upper"):
+        depth_and_force(axes, run["depth"] * 1e3, run[edge])
+
+
+def solvers(axes: Axes, run: Run) -> None:
+    for name, style in (("paper", "-"), ("exact", "--")):
+        depth_and_force(axes, run["depth"] * 1e3, run["forces"][name], style)
+        axes.lines[-1].set(color=LINE if name == "exact" else "#db6d28", label=name)
+    axes.legend(frameon=False)
+
+
+def measured(axes: Axes, run: Run) -> None:
+    depth_and_force(axes, run["depth"] * 1e3, run["force"])
+    axes.set(xlabel="position, mm", ylabel="force on the sensor, N")
+
+
+def study(axes: Axes, run: Run) -> None:
+    friction, hand, peak = (np.array(run.variables[name]) for name in ("friction", "stiffness", "peaks"))
+    for value in np.unique(friction):
+        axes.plot(hand[friction == value], peak[friction == value], "o-", ms=4, lw=1.5, label=f"friction {value:g}")
+    axes.set(xlabel="stiffness of the hand, N/m", ylabel="peak, N")
+    axes.legend(frameon=False, fontsize=7)
+
+
+def learnt(axes: Axes, run: Run) -> None:
+    axes.plot(100 * np.array(run["curve"]), "o-", color=LINE, lw=1.5, ms=4)
+    axes.set(xlabel="generation", ylabel="trials that stop\nbehind the pop, %", ylim=(0, 103))
+
+
 PICTURES: dict[str, Callable[[Axes, Run], None]] = {
     "01_pop": pop,
     "02_scene": two_walls,
@@ -124,6 +154,11 @@ PICTURES: dict[str, Callable[[Axes, Run], None]] = {
     "06_own_device": servo_loop,
     "07_measured_tissue": printed,
     "08_healing_law": healing,
+    "09_law_and_band": band,
+    "10_solvers": solvers,
+    "11_identify": measured,
+    "12_study": study,
+    "13_learn": learnt,
 }
 
 
