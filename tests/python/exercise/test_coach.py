@@ -240,7 +240,7 @@ def test_the_first_thing_to_change_is_what_decided_with_its_moment(write, limit,
 def test_the_words_do_not_depend_on_how_ticks_are_cut(write):
     bad = way((-1, 5), (-1, 0, 3), (-9, 30))
     never = goal("never_pass", membrane="back vein wall")
-    tips = [coached(write, bad, STAY, STOP, never, cuts=cuts) for cuts in (7, 160, 100_000)]
+    tips = [coached(write, bad, STAY, STOP, never, cuts=cuts) for cuts in (29, 160, 100_000)]
     assert tips[0].change and tips[0] == tips[1] == tips[2]
 
 

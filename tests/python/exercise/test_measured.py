@@ -9,7 +9,7 @@ from runs import cut
 
 SCENE = pn.load_scene("venipuncture")  # the skin at 0, 1.2 mm thick; walls at -4.81 and -8.22, 0.4 mm thick
 TIP = SCENE.needle.diameter / np.tan(SCENE.needle.tip_angle) * 1e3  # mm, 4.12
-CUTS = [7, 100_000]
+CUTS = [29, 100_000]
 PRESS = HEAD.replace("[space]", "[space]\npress_mm = 9")
 STOP = goal("stop_after_pop", membrane="front vein wall", within_mm=1.0)
 
