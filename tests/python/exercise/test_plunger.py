@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from attempts import cuts_near, goal, hand_run, judged
-from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, NEVER, SCENE, SLOWLY, with_thumb
+from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, NEVER, SCENE, SLOWLY, pushed, with_thumb
 from punctura import ConfigurationError
 from punctura.exercise import load_exercise
 from punctura.exercise.results import to_csv
@@ -12,8 +12,7 @@ FEEL, STOP, STAY = goal("feel_plunger", at_least_N=2), goal("stop_plunger", with
 
 
 def attempted(begins_mm=30.0, newtons=4.0, lets_go=AT_ONCE, exercise=NAME, cuts=160):
-    columns = with_thumb(hand_run("epidural", LEGS), begins_mm, newtons, lets_go)
-    return judged(load_exercise(exercise), columns, cuts)
+    return judged(load_exercise(exercise), pushed(newtons, lets_go, begins_mm=begins_mm), cuts)
 
 
 def states(result):
@@ -45,7 +44,7 @@ def test_the_plunger_gives_way_when_the_point_comes_into_the_space():
 
 
 def test_the_batches_do_not_matter():
-    columns = with_thumb(hand_run("epidural", LEGS), 30.0, 4.0, SLOWLY)
+    columns = pushed(lets_go=SLOWLY)
     whole = judged(load_exercise(NAME), columns, 100_000).finish()
     near = cuts_near(whole.metrics.yields[0].time, SCENE.servo.rate, len(columns["tick"]))
     for cuts in (near, 27):
@@ -80,7 +79,7 @@ def test_a_thumb_that_begins_in_the_space_has_felt_no_loss():
 
 
 def test_a_syringe_that_is_emptied_in_the_air_is_told_at_once_and_at_the_end():
-    columns = with_thumb(hand_run("epidural", LEGS), -10.0, 4.0, NEVER)
+    columns = pushed(lets_go=NEVER, begins_mm=-10.0)
     beginning = "The syringe is empty: end this attempt and try again. Push the plunger only in the tissue in front of"
     before_the_skin = {name: values[:1600] for name, values in columns.items()}
     assert judged(load_exercise(NAME), before_the_skin).status.instruction.startswith(beginning)
@@ -167,7 +166,7 @@ def test_the_table_of_results_has_the_plunger():
 
 
 def with_second_device(scale):
-    columns = with_thumb(hand_run("epidural", LEGS), 30.0, 4.0, AT_ONCE)
+    columns = pushed()
     return columns | {
         "thumb_felt": scale * columns["thumb_force"],
         "force_scale": np.full(len(columns["tick"]), scale),

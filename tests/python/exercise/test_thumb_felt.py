@@ -1,12 +1,11 @@
 """The plunger's loss of resistance is judged by what a thumb on a second device could feel."""
 
 import sys
-from functools import cache
 
 import numpy as np
 import pytest
-from attempts import cuts_near, goal, hand_run, judged
-from plunger_runs import AT_ONCE, HEAD, LEGS, NAME, SCENE, with_thumb
+from attempts import cuts_near, goal, judged
+from plunger_runs import AT_ONCE, HEAD, NAME, SCENE, pushed
 from punctura._core import ForceLimits, ServoLoop, SimulatedDevice, Target, ThumbLoop
 from punctura.exercise import Attempt, exercise_names, load_exercise, score, thumb_cannot_show
 from punctura.record import Recorder
@@ -15,11 +14,6 @@ from waiting import wait_until
 
 EXERCISE = load_exercise(NAME)
 OMNI = ForceLimits(3.3, 0.88)
-
-
-@cache
-def pushed(newtons, lets_go=AT_ONCE, draws=0.0):
-    return with_thumb(hand_run("epidural", LEGS), 30.0, newtons, lets_go, draws)
 
 
 def on_device(scale=1.0, most=3.3, newtons=4.0, late=2, **thumb):
