@@ -47,18 +47,18 @@ class Declaration(NamedTuple):
     """Fields that are declared together, and the comment behind them."""
 
     variables: list[Variable]
-    says: str
+    comment: str
 
     @property
     def enum(self) -> str | None:
         """The enumeration that the comment names: `PUNCTURA_OUTSIDE ...`."""
-        first = re.match(r"PUNCTURA_(\w+) \.\.\.", self.says)
+        first = re.match(r"PUNCTURA_(\w+) \.\.\.", self.comment)
         return ENUMS[first[1]] if first else None
 
 
 class Struct(NamedTuple):
     name: str
-    says: str
+    comment: str
     lines: list[Declaration]
 
     @property
@@ -82,7 +82,7 @@ class Header:
         self.structs: list[Struct] = []
         self.functions: list[Function] = []
         text = re.sub(r"(?m)^(#.*|extern \"C\" \{|\}$)", "", text)
-        at, says = 0, ""
+        at, comment = 0, ""
         while at < len(text):
             found = DECLARATION.match(text, at)
             if not found:
@@ -91,19 +91,19 @@ class Header:
                 )
             at = found.end()
             if found["comment"]:
-                says = plain(found["comment"])
+                comment = plain(found["comment"])
             elif found["words"]:
                 self.add_enum(found["words"])
             elif found["handle"]:
                 self.handles.append(found["handle"])
             elif found["struct"]:
                 lines = [Declaration(variables(line), plain(note)) for line, note in FIELDS.findall(found["fields"])]
-                self.structs.append(Struct(found["struct"], says, lines))
+                self.structs.append(Struct(found["struct"], comment, lines))
             elif found["function"]:
                 given = [v for part in found["parameters"].split(",") if part != "void" for v in variables(part)]
                 self.functions.append(Function(found["function"], found["result"].removeprefix("punctura_"), given))
             if not found[0].isspace() and not found["comment"]:
-                says = ""
+                comment = ""
 
     def add_enum(self, text: str) -> None:
         words = re.findall(r"PUNCTURA_(\w+) = (\d+)", text)
@@ -176,12 +176,12 @@ def csharp(header: Header) -> str:
         kind = "IntPtr" if first.pointers else "Triple" if first.length == 3 else declared.enum or CS[first.kind]
         names = ", ".join(pascal(RENAMED.get(field.name, field.name)) for field in declared.variables)
         access = "internal" if hidden or first.name == "struct_size" else "public"
-        says = f"  // {declared.says}" if declared.says and not declared.enum else ""
-        return f"        {access} {kind} {names};{says}\n"
+        comment = f"  // {declared.comment}" if declared.comment and not declared.enum else ""
+        return f"        {access} {kind} {names};{comment}\n"
 
     def struct(s: Struct) -> str:
         hidden = any(field.pointers for field in s.fields)
-        summary = f"    /// <summary>{s.says}</summary>\n" if s.says else ""
+        summary = f"    /// <summary>{s.comment}</summary>\n" if s.comment else ""
         head = f"    {'internal' if hidden else 'public'} partial struct {pascal(s.name)}\n    {{\n"
         body = "".join(line(declared, hidden) for declared in s.lines)
         return f"{summary}    [StructLayout(LayoutKind.Sequential)]\n{head}{body}    }}\n"
@@ -224,19 +224,19 @@ def rust(header: Header) -> str:
         return " ".join([*["*mut"] * (v.pointers - 1), *stars, name])
 
     def line(declared: Declaration) -> str:
-        says = declared.says
+        comment = declared.comment
         if declared.enum:
-            says = ", ".join(f"{i} {word}" for i, word in enumerate(header.enums[declared.enum]))
-        elif says and len(declared.variables) > 1:
-            says = f"{', '.join(field.name for field in declared.variables)}: {says}"
-        made = f"    /// {says}\n" if says else ""
+            comment = ", ".join(f"{i} {word}" for i, word in enumerate(header.enums[declared.enum]))
+        elif comment and len(declared.variables) > 1:
+            comment = f"{', '.join(field.name for field in declared.variables)}: {comment}"
+        made = f"    /// {comment}\n" if comment else ""
         for field in declared.variables:
             access = "pub(crate)" if field.name == "struct_size" else "pub"
             made += f"    {access} {RENAMED.get(field.name, field.name)}: {kind(field, parameter=False)},\n"
         return made
 
     def struct(s: Struct) -> str:
-        doc = f"/// {s.says}\n" if s.says else ""
+        doc = f"/// {s.comment}\n" if s.comment else ""
         head = f"#[repr(C)]\n#[derive(Clone, Copy, Debug)]\npub struct {pascal(s.name)} {{\n"
         return f"{doc}{head}{''.join(map(line, s.lines))}}}\n\n"
 
