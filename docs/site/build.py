@@ -16,6 +16,7 @@ import cpp_reference
 import gallery
 import pages
 import studio_style
+import wordless
 from layout import ROOT, SITE, lay_out
 from sphinx.cmd.build import main as sphinx
 
@@ -55,7 +56,7 @@ def main() -> int:
             str(html),
         ]
     )
-    findings = check.findings(html)
+    findings = [*check.findings(html), *wordless.findings(html)]
     for finding in findings:
         print(finding)
     if code or findings:

@@ -8,6 +8,7 @@ from typing import Any
 import punctura
 
 sys.path.insert(0, str(Path(__file__).parent))
+from field_words import give_words, members
 from layout import PAGES
 from text import docstring_rst
 
@@ -55,6 +56,7 @@ def setup(app: Any) -> None:
     def docstring(app: Any, what: str, name: str, item: object, options: Any, lines: list[str]) -> None:
         if what == "property" and lines and (kind := re.fullmatch(r"\(self\) -> (.+)", lines[0])):
             lines[:] = [f"`{short(kind[1])}`", *lines[1:]]  # a compiled property without words of its own
+        lines += members(item) if what == "class" else []
         base = ", ".join(f"`{kind.__name__}`" for kind in item.__bases__) if isinstance(item, type) else ""
         lines[:] = docstring_rst([*lines, *([f"Derives from {base}."] if what == "exception" else [])])
 
@@ -63,5 +65,6 @@ def setup(app: Any) -> None:
     ) -> tuple[str, str | None] | None:
         return (short(arguments), result and short(result)) if arguments else None
 
+    app.connect("builder-inited", lambda app: give_words())
     app.connect("autodoc-process-docstring", docstring)
     app.connect("autodoc-process-signature", signature)

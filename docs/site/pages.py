@@ -8,25 +8,32 @@ from typing import Any
 
 from text import heading
 
+# In the order in which a reader comes to need them.
 PACKAGES = [
-    "punctura", "punctura.errors", "punctura.scene", "punctura.syringe", "punctura.simulation", "punctura.batches",
-    "punctura.live", "punctura.record", "punctura.events", "punctura.exercise", "punctura.reproduce",
-    "punctura.rivals", "punctura.trace", "punctura.identify",
-    "punctura.mujoco",
-    "punctura.gym", "punctura.study", "punctura.perception", "punctura.paths",
+    "punctura", "punctura.scene", "punctura.simulation", "punctura.batches", "punctura.poses", "punctura.syringe",
+    "punctura.live", "punctura.record", "punctura.events", "punctura.compare", "punctura.exercise",
+    "punctura.trace", "punctura.identify", "punctura.rivals", "punctura.study", "punctura.perception",
+    "punctura.gym", "punctura.mujoco", "punctura.fmu", "punctura.studio.client", "punctura.reproduce",
+    "punctura.paths", "punctura.errors",
 ]  # fmt: skip
+# Of modules without __all__.
+NAMES = {"punctura.poses": ["PosedNeedle", "PoseWarning"], "punctura.studio.client": ["StudioClient"]}
 
 
 def python_pages() -> Iterator[tuple[str, str]]:
-    """(name, text): an index, and for each public package one page with the names in its __all__."""
+    """(name, text): an index, and for each public package one page with its names."""
     index = [*heading("Python reference"), ".. toctree::", "", *(f"   {name}" for name in PACKAGES), ""]
     yield "index.rst", "\n".join(index)
     shown: set[int] = set()
     for name in PACKAGES:
         package = importlib.import_module(name)
-        again = [member for member in package.__all__ if id(getattr(package, member)) in shown]
-        shown |= {id(getattr(package, member)) for member in package.__all__}
-        directive = [f".. automodule:: {name}", *([f"   :exclude-members: {', '.join(again)}"] if again else [])]
+        names = NAMES.get(name) or package.__all__
+        again = [member for member in names if id(getattr(package, member)) in shown]
+        shown |= {id(getattr(package, member)) for member in names}
+        directive = [f".. automodule:: {name}"]
+        directive += [f"   :exclude-members: {', '.join(again)}"] if again else []
+        if name in NAMES:
+            directive += ["   :no-members:", "", *(f".. autoclass:: {name}.{member}" for member in names)]
         yield f"{name}.rst", "\n".join([*heading(name), *directive, ""])
 
 

@@ -144,7 +144,7 @@ TicksObject run_3d(SpaceProxy& proxy, const ArrayLike& positions, const ArrayLik
 
 void bind_proxy(nb::module_& m) {
   nb::enum_<Phase>(m, "Phase", nb::is_arithmetic(), "The state of the needle in one membrane.")
-      .value("outside", Phase::outside)
+      .value("outside", Phase::outside, "In front of the membrane. No force.")
       .value("sticking", Phase::sticking, "The proxy rests. The force is inside the band.")
       .value("sliding_in", Phase::sliding_in, "The force is on the lower edge.")
       .value("sliding_out", Phase::sliding_out, "The force is on the upper edge.")

@@ -18,11 +18,11 @@ LawCurve: TypeAlias = JsonObject  # likewise of punctura.studio.wire.common.LawC
 class Quantiles(TypedDict):
     """Quantiles of a time, s, and the counts by bin of the histogram."""
 
-    p50: float
-    p99: float
-    p99_9: float
-    largest: float
-    counts: npt.NDArray[np.uint64]
+    p50: float  # s
+    p99: float  # s
+    p99_9: float  # s
+    largest: float  # s
+    counts: npt.NDArray[np.uint64]  # of each bin
 
 
 class FleetStep(TypedDict):
@@ -41,10 +41,10 @@ class FleetStep(TypedDict):
 class LoopReport(TypedDict):
     """Timing statistics of a ServoLoop."""
 
-    ticks: int
-    late: int
-    period: Quantiles
-    compute: Quantiles
+    ticks: int  # made so far
+    late: int  # ticks that came late
+    period: Quantiles  # from tick to tick
+    compute: Quantiles  # of a tick's computation
 
 
 DeviceState = Literal[
@@ -56,6 +56,6 @@ class BackendState(TypedDict):
     """One kind of device, as `punctura.live.enumerate_devices` lists it."""
 
     backend: str  # the name for `--device`
-    state: DeviceState
+    state: DeviceState  # whether it can be used, or why not
     detail: str  # where it searched, what to do
     devices: list[str]  # the names of the connected devices

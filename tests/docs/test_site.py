@@ -5,10 +5,12 @@ from pathlib import Path
 
 import check
 import cpp_reference
+import field_words
 import gallery
 import pytest
 import studio_style
 import text
+import wordless
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = dict(cpp_reference.pages())
@@ -63,6 +65,27 @@ def test_a_link_inside_the_site_that_leads_nowhere_is_found(tmp_path, link):
 
 def test_a_link_inside_the_site_that_leads_somewhere_is_in_order(tmp_path):
     assert site(tmp_path, index='<a href="other.html#top">x</a><a href="#top">y</a>', other="") == []
+
+
+CLASS = """<dl class="py class"><dt id="p.A"><span>A</span></dt><dd><p>{}</p>
+<dl class="py attribute"><dt id="p.A.x">x: int</dt><dd><p>{}</p></dd></dl></dd></dl>"""
+
+
+@pytest.mark.parametrize(
+    ("of_class", "of_field", "found"),
+    [("Doc.", "", 1), ("Doc.", "m", 0), ("x: m", "", 0), ("xy", "", 1), ("", "m", 1)],
+)
+def test_a_member_of_the_reference_without_words_is_found(tmp_path, of_class, of_field, found):
+    page = tmp_path / "reference/python/p.html"
+    page.parent.mkdir(parents=True)
+    page.write_text(CLASS.format(of_class, of_field))
+    assert len(list(wordless.findings(tmp_path))) == found
+
+
+def test_the_words_of_a_field_are_the_comment_beside_it_or_above_it():
+    fields = "    a: int = f(\n        1,  # no\n    )  # a\n    # b\n    b: str\n"
+    source = f"class A:\n{fields}\n    def c(self):\n        d: int = 1  # no\n"
+    assert field_words.comments(source) == {"a": "a", "b": "b"}
 
 
 def names(entries) -> set[str]:

@@ -49,11 +49,11 @@ class BatchResult:
     force: Array | None = field(default=None)  # (n, ticks, 3), the model's force, N, if it was kept
     vary: Mapping[str, Array] = field(default_factory=dict)  # the numbers that differ, by path
     seeds: npt.NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))  # (n,)
-    base: Scene | None = None
-    motion: Motion | None = None
-    plant: Plant = field(default_factory=Plant)
-    hand: Hand = field(default_factory=Hand)
-    axis: tuple[float, ...] = ()
+    base: Scene | None = None  # the scene before the numbers of a run were set
+    motion: Motion | None = None  # of the hand, or of the tip
+    plant: Plant = field(default_factory=Plant)  # the simulated device
+    hand: Hand = field(default_factory=Hand)  # the simulated hand
+    axis: tuple[float, ...] = ()  # direction of the needle, for positions; else empty
 
     def __len__(self) -> int:
         return len(self.peak)

@@ -74,10 +74,10 @@ class Comparison:
     membrane's own depth, or against time. It is empty if the runs do not have the same membranes.
     """
 
-    on: On
-    statistics: list[Statistics]
+    on: On  # what the curves are drawn against
+    statistics: list[Statistics]  # one for each run
     bands: dict[str, Band]
-    membranes: list[Band]
+    membranes: list[Band]  # the band of each membrane's law
     names: list[str]  # of the membranes
 
     def difference(self, row: int) -> dict[str, float | None]:

@@ -20,13 +20,14 @@ SLOWEST, FASTEST = 1e-4, 0.5  # m/s, of a stroke
 class Motion:
     """The motion of the needle's tip, as the device reports it."""
 
-    name: str
+    name: str  # for tables and pictures
     time: Array = field(repr=False)  # (n,), s, from 0 on
     position: Array = field(repr=False)  # (n, 3), m
     axis: Array = field(repr=False)  # (n, 3) or (3,), direction of the needle
 
     @property
     def seconds(self) -> float:
+        """Its length, s."""
         return float(self.time[-1]) if len(self.time) else 0.0
 
 

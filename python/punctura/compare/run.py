@@ -22,9 +22,9 @@ MOST_TICKS = 2_000_000  # of a recording: 20 minutes at 1600 Hz need 400 MB
 class Run:
     """A run, n ticks of m membranes. SI. Forces on the hand are positive if they push the needle out."""
 
-    name: str
+    name: str  # for tables and pictures
     scene: Scene  # at the start of the run
-    events: Sequence[Event]
+    events: Sequence[Event]  # touches, pops and exits, by time
     time: Array = field(repr=False)  # (n,), s of the run
     depth: Array = field(repr=False)  # (n,), of the tip below the first surface, m
     travel: Array = field(repr=False)  # (n,), of the tip along the needle since the tick before, m; positive inwards

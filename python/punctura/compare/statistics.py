@@ -20,8 +20,8 @@ class Pop(BaseModel):
 
     model_config = ConfigDict(frozen=True)
 
-    membrane: int
-    name: str
+    membrane: int  # its number, from 0
+    name: str  # of the membrane
     time: Finite  # s after the first contact
     drop: Finite  # N, of the model's resistance
     felt_drop: Finite | None  # N, of the felt force, between its largest and its smallest value around the pop
@@ -33,7 +33,7 @@ class Statistics(BaseModel):
 
     model_config = ConfigDict(frozen=True)
 
-    name: str
+    name: str  # of the run
     duration: Finite  # s, from the first contact to the last tick
     depth: Finite  # m, deepest place of the tip below the first surface
     peak: Finite  # N, largest model force
@@ -46,7 +46,7 @@ class Statistics(BaseModel):
     plunger_travel: Finite | None  # m, deepest place of the plunger
     drop: Finite  # N, the largest one at a pop; 0 without a pop
     overshoot: Finite | None  # m, the largest one; None without a pop
-    pops: list[Pop]
+    pops: list[Pop]  # by time
 
 
 FELT_S = 0.05  # s on either side of a pop in which the drop of the felt force is measured

@@ -29,8 +29,8 @@ class Event(BaseModel):
 
     what: Literal["touch", "pop", "out"]  # tip enters; slanted face is through; tip has left
     membrane: int  # index in the scene, from 0
-    name: str
-    tick: int
+    name: str  # of the membrane
+    tick: int  # its number, from 0
     time: Finite  # s, of the tick
     depth: Finite  # m: along the needle while inside, else along the normal
     force_before: Finite = 0.0  # N, largest resistance before the pop

@@ -77,26 +77,30 @@ class Exercise:
     """An exercise, as `load_exercise` returns it. SI."""
 
     name: str  # name of the file without its suffix
-    path: Path
-    file: ExerciseFile
+    path: Path  # of its file
+    file: ExerciseFile  # what the file says
     scene: Scene  # as in its file; a device can run it at another rate
     scene_name: str  # a ready scene's name or a path, for load_scene
     warnings: tuple[Problem, ...] = ()  # allowed values that are usually a mistake
 
     @property
     def title(self) -> str:
+        """For a list of exercises."""
         return self.file.title
 
     @property
     def description(self) -> str:
+        """What it is about."""
         return self.file.description
 
     @property
     def instruction(self) -> str:
+        """What to do, at the start."""
         return self.file.instruction
 
     @property
     def goals(self) -> list[AnyGoal]:
+        """As in its file."""
         return list(self.file.goal)
 
     @property

@@ -38,7 +38,7 @@ class GoalState(_Part):
     was not decided is open.
     """
 
-    text: str
+    text: str  # the goal as a sentence
     state: Literal["open", "met", "missed", "not measured"]
 
 
@@ -46,7 +46,7 @@ class Status(_Part):
     """The present state of an attempt."""
 
     instruction: str  # what to do now
-    goals: list[GoalState]
+    goals: list[GoalState]  # each with its present state
     held: float = 0.0  # s, the present stay in the space, as the longest stay goal counts it
     hold: float = 0.0  # s, of that goal; 0 without one
     time: float = 0.0  # s since the first contact, up to the decision
@@ -56,8 +56,8 @@ class Status(_Part):
 class Overshoot(_Part):
     """How far the tip moved on behind a membrane in the seconds after its pop."""
 
-    membrane: int
-    name: str
+    membrane: int  # its number, from 0
+    name: str  # of the membrane
     time: Finite  # time of the pop, s
     distance: Finite  # m along the needle
     seconds: Finite = 0.3  # length of the measurement, from the membrane's stop_after_pop goal
@@ -100,8 +100,8 @@ class Loss(FeltLoss):
     before: at the membrane's largest resistance, as far as the limits permitted it until the pop. after: at the pop.
     """
 
-    membrane: int
-    name: str
+    membrane: int  # its number, from 0
+    name: str  # of the membrane
     time: Finite  # time of the pop, s
 
 
@@ -144,7 +144,7 @@ class Metrics(_Part):
     force_scale: Finite = 1.0  # how much of the model's force the device gives, before the limits
     losses: list[Loss] = []  # of resistance, at each pop
     yields: list[Yield] = []  # of the syringe's plunger
-    overshoot: list[Overshoot]
+    overshoot: list[Overshoot]  # behind each membrane that gave
     dwell: Finite  # s, total time in the space: of the whole tip if a stay goal asks for it, else of the point
     longest_stay: Finite  # s, longest time in the space without a break
     path_length: Finite | None  # m, tip's path from the last entry to the space, else to the deepest point
@@ -154,7 +154,7 @@ class Metrics(_Part):
     entry_angle: Finite | None  # rad, between the needle and the first surface at the last entry
     time_to_target: Finite | None  # s, from the first contact to the first arrival, as the reach goal defines it
     total_time: Finite  # s, from the first contact to the decision
-    lost_ticks: int
+    lost_ticks: int  # that the recording lacks
     force_cut: dict[str, Finite] = {}  # s, time in which the device's force was below the model's, by limit
     page_late: Finite = 0.0  # s, time in which the page that moves the hand was late
     force_off: Finite = 0.0  # s, time since the last entry in which the tissue gave no force to the hand
@@ -163,22 +163,22 @@ class Metrics(_Part):
 class Result(_Part):
     """A result; punctura.exercise.results saves it. `name` is the name of the saved file, empty before."""
 
-    format: int = FORMAT
+    format: int = FORMAT  # version of the file's layout
     name: str = ""
-    exercise: str
-    title: str
-    scene: str
-    person: str = ""
+    exercise: str  # its name
+    title: str  # of the exercise
+    scene: str  # its name
+    person: str = ""  # who did it, if told
     group: str = ""  # the person's class
-    recording: str = ""
+    recording: str = ""  # its file, if there is one
     date: str  # ISO 8601, UTC
     version: str  # of Punctura
-    passed: bool
+    passed: bool  # all goals were met
     withheld: str = ""  # why an attempt that achieved everything is not judged as passed; else empty
     reasons: list[str]  # sentences for the student
-    goals: list[GoalState]
-    metrics: Metrics
-    events: list[Event]
+    goals: list[GoalState]  # each with its state
+    metrics: Metrics  # what was measured
+    events: list[Event]  # touches, pops and exits
     coaching: Coaching = Coaching()  # empty in results of earlier versions
 
     @property

@@ -48,7 +48,7 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
     Each reset draws a scene of the population. Observation: OBSERVATION. docs/gym.md has the rewards.
     """
 
-    metadata = RENDERING
+    metadata = RENDERING  # what Gymnasium asks for: how it can be drawn
 
     def __init__(
         self, task: str | Task, population: Population | None = None, plant: Plant | None = None,
@@ -94,7 +94,7 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
     The results do not depend on the number of threads. `infos["fault"]` has the latched fault of each trial.
     """
 
-    metadata = RENDERING
+    metadata = RENDERING  # what Gymnasium asks for: how it can be drawn
 
     def __init__(
         self, task: str | Task, num_envs: int = 1, population: Population | None = None, plant: Plant | None = None,

@@ -46,14 +46,14 @@ MORE_OPTIMA = (
 class Identification:
     """Membranes identified from a trace. `estimates` have the 95 % intervals, `verdicts` say what cannot be told."""
 
-    trace: Trace
-    segments: Segments
-    fit: Fit
+    trace: Trace  # that was given
+    segments: Segments  # its contact, strokes and pops
+    fit: Fit  # the best one
     estimates: tuple[Estimate, ...]
     verdicts: tuple[str, ...]
     candidates: tuple[Candidate, ...]  # the chosen model first
-    effective_samples: float
-    doubts: Doubts
+    effective_samples: float  # how many independent samples the noise leaves
+    doubts: Doubts  # signs that the model does not explain the trace
     rig: tuple[RigValue, ...] = ()  # the errors of the rig that the fit and its intervals take into account
 
     @property

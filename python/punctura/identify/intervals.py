@@ -26,11 +26,11 @@ SEARCHES, OUTWARDS = 8, 1.5  # of a bound that moves outwards: how often, and by
 class Estimate:
     """A parameter, SI, and its 95 % interval. low or high is None where the trace sets no bound."""
 
-    name: str
-    value: float
+    name: str  # such as membrane[0].stiffness
+    value: float  # the best fit
     low: float | None
     high: float | None
-    unit: str
+    unit: str  # SI
 
     @property
     def identifiable(self) -> bool:

@@ -42,7 +42,7 @@ _RANGES = {
 class Parameters:
     """The values of all parameters, SI. membranes: (m, 11); coupling: (6,); nuisance: (4,), as NUISANCE."""
 
-    needle: Needle
+    needle: Needle  # as it was given
     membranes: Array
     coupling: Array
     nuisance: Array = field(default_factory=lambda: np.zeros(len(NUISANCE)))

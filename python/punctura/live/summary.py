@@ -29,36 +29,36 @@ def strongest(force: NDArray[np.float64], ceiling: NDArray[np.float64]) -> float
 class RunSummary:
     """The result of a live run, SI. `punctura run --headless --json` prints all fields."""
 
-    scene: str
-    device: str
-    rate_hz: float
-    membranes: list[str]
-    ticks: int = 0
+    scene: str  # its name
+    device: str  # back-end and model
+    rate_hz: float  # ticks a second
+    membranes: list[str]  # their names
+    ticks: int = 0  # that its listener read
     lost: int = 0  # ticks whose snapshot never came
     force_scale: float = 1.0  # how much of the model's force the device gives, before the limits
     felt_peak_N: float = 0.0  # of the felt force
-    peak_N: float = 0.0
-    deepest_m: list[float] = field(default_factory=list)
+    peak_N: float = 0.0  # largest force of the model
+    deepest_m: list[float] = field(default_factory=list)  # of each membrane
     limited_ticks: int = 0  # by peak, continuous and temperature limits; ramp-in apart
     limited_by: dict[str, int] = field(default_factory=dict)  # ticks, by the names in CUTS
     second_device: str = ""  # empty without one
     thumb_peak_N: float = 0.0  # felt force of the thumb on the second device
     injected_m3: float = 0.0  # the most that had left the scene's syringe
-    fault: str = ""
-    late: int = 0
-    compute_p99_9_s: float = 0.0
-    period_p50_s: float = 0.0
-    statements: list[str] = field(default_factory=list)
+    fault: str = ""  # in words; empty: none
+    late: int = 0  # ticks that came late
+    compute_p99_9_s: float = 0.0  # of a tick: 99.9 % were faster
+    period_p50_s: float = 0.0  # from tick to tick, median
+    statements: list[str] = field(default_factory=list)  # what to know about run and device
     # The last tick, for a status line.
     force_N: tuple[float, float, float] = (0.0, 0.0, 0.0)
     thumb_N: float = 0.0  # felt force of the thumb
     model_force_N: float = 0.0  # before force scale and limits, norm
     limit: str = ""  # which limit cuts the force, in words
-    depth_m: list[float] = field(default_factory=list)
-    phases: list[str] = field(default_factory=list)
-    state: str = "disarmed"
-    force_was_on: bool = False
-    time_s: float = 0.0
+    depth_m: list[float] = field(default_factory=list)  # now, in each membrane
+    phases: list[str] = field(default_factory=list)  # now, in each membrane
+    state: str = "disarmed"  # now: a ServoState
+    force_was_on: bool = False  # at any time
+    time_s: float = 0.0  # since the start
 
     @classmethod
     def of(cls, scene: Scene, device: str, rate: float) -> RunSummary:

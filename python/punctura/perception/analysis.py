@@ -61,33 +61,33 @@ class Person:
     """The result of one participant. Levels are in the unit of the protocol's variable."""
 
     participant: str
-    trials: int
+    trials: int  # scored
     threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
     # difference from the reference that is told with a probability half-way between guess and 1
     jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself
     weber: Estimate | None = None  # jnd / reference
-    lapse: Estimate | None = None
+    lapse: Estimate | None = None  # of the fit: share of answers by chance
     first: Estimate | None = None  # share of "first" if two intervals do not differ: the bias
     slope: Estimate | None = None  # of ratings: points for each unit of the variable
     reason: str = ""  # why there is no threshold
-    detection: list[Detection] = field(default_factory=list)
+    detection: list[Detection] = field(default_factory=list)  # one for each level
     by_block: list[float | None] = field(default_factory=list)  # share of right answers or yes; mean rating or setting
-    catch_trials: int = 0
-    catch_counted: int = 0
+    catch_trials: int = 0  # that were answered
+    catch_counted: int = 0  # of them, how many with the answer that counts
 
 
 @dataclass
 class Analysis:
     """All participants, and their means with the interval of Student's t."""
 
-    protocol: str
-    unit: str
+    protocol: str  # its name
+    unit: str  # of the levels
     felt: bool  # whether the function is one of the felt quantity, not of the planned level
-    people: list[Person]
-    threshold: Estimate | None = None
-    jnd: Estimate | None = None
-    weber: Estimate | None = None
-    slope: Estimate | None = None
+    people: list[Person]  # one for each participant
+    threshold: Estimate | None = None  # mean of the people
+    jnd: Estimate | None = None  # mean of the people
+    weber: Estimate | None = None  # mean of the people
+    slope: Estimate | None = None  # mean of the people
     reason: str = ""  # why there are no means
 
 

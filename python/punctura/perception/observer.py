@@ -51,6 +51,7 @@ class Observer:
             raise ValueError("bias and criterion must be finite numbers")
 
     def spread(self, one: Felt, judged: str) -> float:
+        """The standard deviation of what is felt of an interval."""
         return float(np.hypot(np.hypot(self.noise, self.weber * getattr(one, judged)), self.masking * one.peak))
 
 

@@ -76,7 +76,7 @@ class PowerRow:
     """What an experiment of this size gives."""
 
     trials: int  # scored, of each person
-    people: int
+    people: int  # in the experiment
     person_width: float  # mean width of a person's interval of the threshold
     mean_width: float  # mean width of the interval of the mean of the people; NaN for one person
     without: float  # share of sessions that gave no threshold

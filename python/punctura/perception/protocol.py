@@ -96,11 +96,11 @@ class Stimulus:
 class Protocol:
     """A checked protocol, as `load_protocol` returns it. SI."""
 
-    path: Path
-    file: ProtocolFile
+    path: Path  # of its file
+    file: ProtocolFile  # what the file says
     stimuli: tuple[Stimulus, ...]  # one a level, from the lowest to the highest
     references: tuple[Stimulus, ...]  # for each level the other intervals; empty without other intervals
-    catch: Stimulus | None
+    catch: Stimulus | None  # of trials without the stimulus
     membrane: int  # the judged one
     unit: str  # of the levels
 
@@ -111,6 +111,7 @@ class Protocol:
 
     @property
     def levels(self) -> tuple[float, ...]:
+        """From the lowest to the highest."""
         return tuple(one.level for one in self.stimuli)
 
     @property

@@ -20,19 +20,19 @@ class RecorderStatus:
     """The status at one moment. `trouble` describes the present problem; empty if none."""
 
     file: Path | None  # present path of the recording; None if it was moved and the system does not report where
-    finished: bool = False
+    finished: bool = False  # the file is whole
     rows: int = 0  # ticks on the disk
     last_tick: int = -1  # number of the last tick on the disk
-    bytes: int = 0
+    bytes: int = 0  # written
     lost: int = 0  # ticks that will never be in the file
     lost_in_ring: int = 0  # of `lost`: the ring was full
     lost_in_backlog: int = 0  # of `lost`: not written, because the disk was too slow, full or gone
     lost_other: int = 0  # of `lost`: a defect, no memory, or a file changed by others; set at the end
     unwritten: dict[str, int] = field(default_factory=dict)  # lost_in_backlog by cause
-    waiting_bytes: int = 0
-    slowest_write_s: float = 0.0
+    waiting_bytes: int = 0  # not yet written
+    slowest_write_s: float = 0.0  # of a block
     trouble: str = ""
-    notes: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)  # for the user
 
     @property
     def words(self) -> str:

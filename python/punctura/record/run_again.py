@@ -46,13 +46,13 @@ class Difference(TypedDict):
 class ReplayResult:
     """The number of replayed ticks, and the first difference if there is one."""
 
-    file: str
-    ticks: int = 0
+    file: str  # the recording
+    ticks: int = 0  # computed again
     identical: bool = True  # whether all replayed ticks agree with the recording
     complete: bool = True  # whether all ticks were replayed; False for an empty recording
-    first_difference: Difference | None = None
-    same_build: bool = True
-    notes: list[str] = field(default_factory=list)
+    first_difference: Difference | None = None  # None: there is none
+    same_build: bool = True  # it was recorded by this build of Punctura
+    notes: list[str] = field(default_factory=list)  # for the user
 
 
 def replay(

@@ -93,11 +93,11 @@ SUFFIXES = (".csv", ".parquet", ".mcap")
 class ExportResult:
     """The exported file, the number of ticks, and notes for the reader."""
 
-    file: str
-    out: str
-    ticks: int
-    lost: int
-    notes: list[str] = field(default_factory=list)
+    file: str  # the recording
+    out: str  # the file written
+    ticks: int  # written
+    lost: int  # that the recording lacks
+    notes: list[str] = field(default_factory=list)  # for the reader
 
 
 def export(path: str | os.PathLike[str], out: str | os.PathLike[str], progress: Report | None = None) -> ExportResult:

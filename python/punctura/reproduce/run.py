@@ -23,9 +23,9 @@ PAGE = "index.html"
 class Reproduction:
     """The written files and the measured numbers."""
 
-    folder: Path
+    folder: Path  # with all files
     files: tuple[str, ...]  # names in the folder, the page first
-    measured: tuple[Measured, ...]
+    measured: tuple[Measured, ...]  # one for each number of a figure
 
     @property
     def page(self) -> Path:

@@ -150,11 +150,11 @@ Table = Mapping[str, Sequence[Any] | NDArray[Any]]
 class Measured:
     """A number measured in a run, and the expected number from the law (NaN if the law gives none)."""
 
-    figure: str
-    quantity: str
-    unit: str
-    expected: float
-    measured: float
+    figure: str  # of K06
+    quantity: str  # in words
+    unit: str  # of both numbers
+    expected: float  # from the law
+    measured: float  # in the run
     source: str  # source of the expected number
 
 

@@ -33,20 +33,20 @@ AnyFit = RivalFit | K06Fit
 class Row:
     """One model on the trace. SI."""
 
-    name: str
-    title: str
-    parameters: int
+    name: str  # of the model, for programs
+    title: str  # for people
+    parameters: int  # how many were fitted
     rmse: float  # N
     rmse_share: float  # of the peak
-    aic: float
-    bic: float
+    aic: float  # Akaike's criterion: less is better
+    bic: float  # Schwarz's criterion: less is better
     held_out_rmse: float  # N, on samples that the fit did not see; NaN if it was not measured
     first_rmse_share: float  # of the peak, fitted from contact to the first pop alone; NaN without a pop
     first_aic: float  # of that fit, among all models on the stretch
-    chatter: Chatter | None
-    converged: bool
-    starts: int
-    agreeing: int
+    chatter: Chatter | None  # of its force on a device; None: not computed
+    converged: bool  # the fit ended by itself
+    starts: int  # fits that were begun
+    agreeing: int  # of them, that ended at the same numbers
     force: Array = field(repr=False)  # (n,), N, against the insertion
     layers: tuple[Layer, ...] = field(default=(), repr=False)  # of a rival
     scene: Scene | None = field(default=None, repr=False)  # of K06
@@ -56,11 +56,11 @@ class Row:
 class TraceComparison:
     """All models on a trace, the one with the least AIC first."""
 
-    trace: Trace = field(repr=False)
-    segments: Segments = field(repr=False)
+    trace: Trace = field(repr=False)  # that was given
+    segments: Segments = field(repr=False)  # its contact, strokes and pops
     peak: float  # N
     effective_samples: float  # of AIC and BIC
-    rows: tuple[Row, ...]
+    rows: tuple[Row, ...]  # one for each model
 
     def row(self, name: str) -> Row:
         """The row of the model with this name. Raises KeyError."""

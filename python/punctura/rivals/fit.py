@@ -25,23 +25,25 @@ SEARCHED = 600  # samples while the fit searches; the last step uses all
 class RivalFit:
     """A rival fitted to a trace. SI."""
 
-    kind: RivalKind
-    layers: tuple[Layer, ...]
+    kind: RivalKind  # of rival
+    layers: tuple[Layer, ...]  # by depth
     parameters: int  # fitted, with the punctures
     force: Array = field(repr=False)  # (n,), N, against the insertion
     residuals: Array = field(repr=False)  # (n,), N, measured less computed
     converged: bool  # the solver ended at an optimum
     agreeing: int  # of the starts, how many ended within 1 % of the least error
-    starts: int
+    starts: int  # fits that were begun
     held_out_rmse: float  # N, of samples that the fit did not see
     surface: float  # m, of the first layer
 
     @property
     def name(self) -> str:
+        """Of the kind, for programs."""
         return self.kind.name
 
     @property
     def title(self) -> str:
+        """Of the kind, for people."""
         return self.kind.title
 
     @property

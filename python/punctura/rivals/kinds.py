@@ -15,12 +15,12 @@ Shows = Literal["insertion", "withdrawal", "speeds", "setting"]
 class RivalNumber:
     """A number of a rival. low and high bound every use; `default` lies between them. SI."""
 
-    name: str
-    unit: str
+    name: str  # for programs
+    unit: str  # SI
     low: float
     high: float
     default: float
-    what: str
+    what: str  # it is, in words
     shows: Shows  # what a trace must contain so that the number can be read from it; "setting": never fitted
 
 
@@ -28,11 +28,11 @@ class RivalNumber:
 class RivalKind:
     """A rival: a force model of another author."""
 
-    name: str
-    title: str
-    source: str
+    name: str  # for programs
+    title: str  # for people
+    source: str  # where it was published
     punctures: bool  # whether it has a puncture: the number "puncture"
-    numbers: tuple[RivalNumber, ...]
+    numbers: tuple[RivalNumber, ...]  # that it needs
 
     def fitted(self, shows: frozenset[Shows]) -> tuple[RivalNumber, ...]:
         """The numbers that a trace with these contents can show, without the puncture."""

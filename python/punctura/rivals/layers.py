@@ -75,7 +75,7 @@ class Layer:
     """A rival behind a surface. surface: its depth, m, on the depth axis of the trace."""
 
     surface: float
-    rival: Rival
+    rival: Rival  # with its numbers
 
     def resistance(self, path: Path) -> Array:
         """The force against the insertion (n,), N."""

@@ -19,28 +19,28 @@ def depth_note(membrane: str, depth: float) -> str:
 
 @dataclass
 class MembraneSummary:
-    """One membrane: largest depth (m) and largest force (N), both along the needle."""
+    """One membrane."""
 
-    name: str
-    deepest_m: float = 0.0
-    peak_N: float = 0.0
+    name: str  # of the membrane
+    deepest_m: float = 0.0  # along the needle
+    peak_N: float = 0.0  # largest force along the needle
 
 
 @dataclass
 class SimulationSummary:
     """The result of a simulation: files, times, the largest forces, and notes for the user."""
 
-    scene: str
-    motion: str
-    out: str
+    scene: str  # its name
+    motion: str  # the file that was read
+    out: str  # the file written
     samples: int = 0  # of the motion
-    ticks: int = 0
+    ticks: int = 0  # made
     motion_rate_hz: float | None = None  # None for a motion of one sample
-    rate_hz: float = 0.0
-    resampled: bool = False
-    start_s: float = 0.0
-    end_s: float = 0.0
-    peak_N: float = 0.0
-    membranes: list[MembraneSummary] = field(default_factory=list)
+    rate_hz: float = 0.0  # ticks a second
+    resampled: bool = False  # the motion had another rate
+    start_s: float = 0.0  # of the motion
+    end_s: float = 0.0  # of the motion
+    peak_N: float = 0.0  # largest force
+    membranes: list[MembraneSummary] = field(default_factory=list)  # by the order of the scene
     notes: list[str] = field(default_factory=list)
-    elapsed_s: float = 0.0
+    elapsed_s: float = 0.0  # that the computation took

@@ -69,6 +69,7 @@ class StudioClient:
         return f"<StudioClient of {self.host}: {self.ticks} ticks, closed={self.closed}>"
 
     def send(self, text: str | bytes) -> None:
+        """Sends a message as it is."""
         self._socket.send(text)
 
     def target(self, position: list[float], axis: list[float], run: int | None = None) -> None:
@@ -115,12 +116,14 @@ class StudioClient:
             connection.close()
 
     def json(self, path: str) -> Any:
+        """The body of an address under /api, read as JSON. Raises ValueError if the status is not 200."""
         status, body = self.get(path)
         if status != 200:
             raise ValueError(f"{path}: {status} {body.decode(errors='replace').strip()}")
         return json.loads(body)
 
     def close(self) -> None:
+        """Closes the connection."""
         self._open.close()
         self._thread.join()
 

@@ -77,12 +77,12 @@ _OWNERS = ("hand", "plant", "strokes")  # of numbers that are not the scene's
 class Plan:
     """A checked plan: what is the same in all trials, and the variables."""
 
-    path: Path
-    file: PlanFile
-    scene: Scene
-    motion: Strokes
-    plant: Plant
-    hand: Hand
+    path: Path  # of its file
+    file: PlanFile  # what the file says
+    scene: Scene  # with the plan's values
+    motion: Strokes  # of the hand
+    plant: Plant  # the simulated device
+    hand: Hand  # the simulated hand
     results: tuple[str, ...]  # columns of the table
 
     @property

@@ -70,10 +70,10 @@ CHECKING = 0.05  # of the time of a study, measured with trials of one second
 class StudySummary:
     """The files of a study, and how many trials it has, were kept from before, or were ended by a fault."""
 
-    plan: str
+    plan: str  # its file
     table: str  # Parquet file, one row for each trial
-    report: str
-    trials: int
+    report: str  # its file
+    trials: int  # of the whole plan
     kept: int  # trials that an earlier run had computed
     faults: int  # trials that a fault of the servo step ended
 

@@ -32,7 +32,7 @@ class Pop:
 class Stroke:
     """The needle moves in one direction or rests, from sample `start` to sample `end` (exclusive)."""
 
-    kind: Literal["in", "out", "hold"]
+    kind: Literal["in", "out", "hold"]  # which way it goes
     start: int
     end: int
     insertion: int  # 0 for the first insertion and its withdrawal
@@ -43,8 +43,8 @@ class Segments:
     """What happens in a trace. Indices count its samples."""
 
     contact: int | None  # the last sample before the force leaves the air; None if the trace begins in contact
-    pops: tuple[Pop, ...]
-    strokes: tuple[Stroke, ...]
+    pops: tuple[Pop, ...]  # by depth
+    strokes: tuple[Stroke, ...]  # by time
     exit: int | None = None  # the first sample in air after the last withdrawal; None if the trace does not end there
 
     @property

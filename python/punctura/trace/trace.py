@@ -60,8 +60,8 @@ class Trace:
     depth: Array
     force: Array
     time: Array | None = None
-    source: str = ""
-    findings: tuple[Finding, ...] = field(default=(), repr=False)
+    source: str = ""  # its file, for messages
+    findings: tuple[Finding, ...] = field(default=(), repr=False)  # what is unusual in it
     depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
 
     def __post_init__(self) -> None:
