@@ -30,6 +30,7 @@ ADJUST = (
     .replace('"two_intervals"', '"adjustment"')
     .replace("per_level = 20", "total = 12")
 )
+WIDE = RIGHT.replace("0.42, 0.43, 0.45, 0.47, 0.5, 0.54, 0.6, 0.7]", "0.415, 0.42, 0.43, 0.45, 0.49, 0.57, 0.73, 1.05]")
 YES = """
 title = "Was there a pop?"
 question = "Did it pop?"
@@ -61,6 +62,12 @@ between = [0.0, 1.5]
 [trials]
 per_level = 20
 """
+YES_N = (
+    SOLVED.replace('"two_intervals"', '"yes_no"')
+    .replace("[0.25, 0.3, 0.35]", "[0.2, 0.24, 0.27, 0.3, 0.33, 0.38]")
+    .replace("reference = 0.3\n", "")
+    .replace("per_level = 20", "per_level = 20\ncatch = 40\ncatch_level = 0.19")
+)
 
 
 def written(folder: Path, text: str) -> Path:

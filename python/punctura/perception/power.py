@@ -32,7 +32,7 @@ def with_trials(protocol: Protocol, trials: int) -> Protocol:
     if protocol.file.method == "constant":
         changed = {"per_level": max(1, round(trials / len(protocol.levels))), "blocks": 1}
     else:
-        changed = {"total": trials, "blocks": 1}
+        changed = {"total": trials, "per_level": None, "blocks": 1}
     file = protocol.file.model_copy(update={"trials": given.model_copy(update=changed)})
     return replace(protocol, file=file)
 

@@ -12,7 +12,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from punctura.files.whole_file import private_folder, write_whole
-from punctura.perception.analysis import LEVEL, SHARES, Analysis, Answers, Estimate, analyse, answers_of, belief_of
+from punctura.perception.analysis import (
+    LEVEL,
+    SHARES,
+    Analysis,
+    Answers,
+    Estimate,
+    Person,
+    analyse,
+    answers_of,
+    belief_of,
+)
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import SessionError, check_header, delete_participant, read_session, sessions
 from punctura.perception.table import TABLES, save_tables
@@ -64,9 +74,10 @@ def words(one: Estimate | None) -> str:
     """The number and its interval, or the bound that the answers set."""
     if one is None or not np.isfinite([one.low, one.high]).any():
         return "-"
+    value, low, high = (f"{round(end, 12) + 0:.3g}" for end in one)
     if not np.isfinite(one.high):
-        return f"at least {one.low:.3g}"
-    return f"{one.value:.3g} ({one.low:.3g} to {one.high:.3g})" if np.isfinite(one.low) else f"at most {one.high:.3g}"
+        return f"at least {low}"
+    return f"{value} ({low} to {high})" if np.isfinite(one.low) else f"at most {high}"
 
 
 def json_of(found: Analysis) -> str:
@@ -76,16 +87,19 @@ def json_of(found: Analysis) -> str:
 
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
-    file, unit = protocol.file, found.unit
-    keys = {"slope": "exponent" if file.task == "magnitude" else f"points for each {unit}"}
-    if not protocol.rates:
-        keys = {"threshold": f"threshold, {unit}", "jnd": f"JND, {unit}", "weber": "Weber fraction", "lapse": "lapses"}
-        keys |= {"first": "first if equal"} if file.task == "two_intervals" else {}
+    file, unit = protocol.file, "" if found.unit == "-" else f", {found.unit}"
+    keys = {"threshold": f"threshold{unit}"}
+    if protocol.rates:
+        keys = {"slope": "exponent" if file.task == "magnitude" else f"points for each {found.unit}"}
+    if protocol.reference is not None:
+        keys |= {"jnd": f"JND{unit}", "weber": "Weber fraction"}
+    if not (protocol.rates or protocol.adjusts):
+        keys |= {"lapse": "lapses"} | ({"first": "first if equal"} if file.task == "two_intervals" else {})
     shares = "right" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
-        f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable} in {unit}, fitted against "
+        f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
         f"{what}. Intervals are {LEVEL:.0%} intervals. Source of the protocol: {file.source or 'not given'}.", "",
         f"| participant | trials | {' | '.join(keys.values())} | {shares} in each block |",
         f"|---|---|{'---|' * len(keys)}---|",
@@ -105,7 +119,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
     detected = [(one.participant, each) for one in found.people for each in one.detection]
     if detected:
-        lines += [f"## d'\n\n| participant | level, {unit} | trials | d' | criterion |", "|---|---|---|---|---|"]
+        lines += [f"## d'\n\n| participant | level{unit} | trials | d' | criterion |", "|---|---|---|---|---|"]
         for name, each in detected:
             lines.append(
                 f"| {name} | {each.level:.4g} | {each.trials} | {words(each.dprime)} | {words(each.criterion)} |"
@@ -134,15 +148,15 @@ def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[J
         figure = Figure(figsize=(2.6 * across, 2.3 * down), layout="constrained")
         for number, one in enumerate(people, 1):
             panel = figure.add_subplot(down, across, number)
-            _panel(panel, protocol, answers_of(protocol, sessions[one.participant][1:]))
+            _panel(panel, protocol, one, answers_of(protocol, sessions[one.participant][1:]))
             panel.set_title(one.participant)
         data = io.BytesIO()
         figure.savefig(data, format="svg", metadata={"Date": None})
     return data.getvalue()
 
 
-def _panel(panel: Axes, protocol: Protocol, answers: Answers) -> None:
-    variable = f"{protocol.file.stimulus.variable}, {protocol.unit}"
+def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> None:
+    variable = protocol.file.stimulus.variable.removesuffix("_N") + f", {protocol.unit}".removesuffix(", -")
     panel.set_xlabel("setting" if protocol.adjusts else variable)
     panel.set_ylabel(variable if protocol.adjusts else _counted(protocol))
     if protocol.adjusts:
@@ -166,7 +180,15 @@ def _panel(panel: Axes, protocol: Protocol, answers: Answers) -> None:
     panel.fill_between(curve, band[:, 0], band[:, 1], color="0.85", lw=0)
     panel.plot(curve, p @ belief.weight, color="0.2", lw=1.2)
     panel.set_ylim(-0.03, 1.03)
-    panel.set_xscale(protocol.file.stimulus.scale)
+    if protocol.shape.log:
+        panel.set_xscale("log")
+        panel.set_xticks(protocol.levels[::3], [f"{level:g}" for level in protocol.levels[::3]])
+        panel.minorticks_off()
+    if one.threshold is not None:
+        ends, half = np.array(one.threshold[1:]), 0.5
+        if protocol.shape.one_sided:
+            ends, half = protocol.shape.reference + ends * (-1) ** protocol.shape.below, (1 + protocol.shape.guess) / 2
+        panel.plot(ends, [half, half], color="0.2", lw=2.5, solid_capstyle="butt")
 
 
 def _counted(protocol: Protocol) -> str:

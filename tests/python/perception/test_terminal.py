@@ -192,7 +192,12 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
         rows = list(csv.DictReader(opened))
     assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
     report = (folder / "report.md").read_text()
-    assert "| O01 | 120 |" in report and "false alarms" in report and (folder / "functions.svg").exists()
+    assert (
+        "| O01 | 120 |" in report
+        and "JND" not in report
+        and "false alarms" in report
+        and (folder / "functions.svg").exists()
+    )
     status, out, _ = call(capsys, "delete", file, "O01")
     assert status == 0 and out.count("deleted") == 7
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
