@@ -29,11 +29,10 @@ class Coverage:
 def with_trials(protocol: Protocol, trials: int) -> Protocol:
     """The protocol with about as many scored trials, in one block."""
     given = protocol.file.trials
+    changed: dict[str, int | None] = {"total": trials, "per_level": None}
     if protocol.file.method == "constant":
-        changed = {"per_level": max(1, round(trials / len(protocol.levels))), "blocks": 1}
-    else:
-        changed = {"total": trials, "per_level": None, "blocks": 1}
-    file = protocol.file.model_copy(update={"trials": given.model_copy(update=changed)})
+        changed = {"per_level": max(1, round(trials / len(protocol.levels))), "total": None}
+    file = protocol.file.model_copy(update={"trials": given.model_copy(update=changed | {"blocks": 1})})
     return replace(protocol, file=file)
 
 
