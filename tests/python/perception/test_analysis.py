@@ -20,7 +20,7 @@ from scipy.optimize import minimize
 from scipy.special import ndtr
 
 SHARP = Observer(weber=0.06)
-FAINT = Observer(noise=0.03, criterion=0.285)
+FAINT = Observer(weber=0.0, noise=0.03, criterion=0.285)
 TEXTS = {"compares": COMPARES, "right": RIGHT, "yes": YES}
 Row = tuple[str, str, str, int, Observer]
 ROWS: list[Row] = [  # title, protocol, method, trials, observer
@@ -155,6 +155,19 @@ def test_no_number_without_enough_answers(senses: dict[str, Senses]) -> None:
     assert flat.jnd is None and flat.weber is None
     guesser = Simulation(senses["right"].protocol, Observer(lapse=1.0), senses["right"])
     assert all(person(guesser.protocol, "", guesser.run(i, i)).threshold is None for i in range(3))
+
+
+@pytest.mark.parametrize("wrong", [{0}, {3, 9}])
+def test_a_staircase_that_does_not_settle_gives_no_threshold(senses: dict[str, Senses], wrong: set[int]) -> None:
+    """It walks to the hardest level, and all further answers are right."""
+    file = senses["right"].protocol.file.model_copy(update={"method": "staircase"})
+    course, session = Course(replace(senses["right"].protocol, file=file), 0), []
+    while (trial := course.next()) is not None:
+        answer = ("first", "second")[trial.position ^ (trial.number in wrong)]
+        line = {"kind": "trial", "block": 0, "level": trial.shown.level, "position": trial.position, "felt": []}
+        session.append(line | {"answer": answer})
+        course.add(trial, answer)
+    assert "outside the levels" in person(course.protocol, "", session).reason
 
 
 def test_a_catch_trial_below_the_reference_is_right_if_the_reference_is_chosen(senses: dict[str, Senses]) -> None:
