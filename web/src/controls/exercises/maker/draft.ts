@@ -19,6 +19,7 @@ export interface Draft {
 }
 export type FieldName = Exclude<keyof Draft, "goals"> | `goal.${string}`;
 
+const LEAST_ROOM = 0.2; // mm
 const HEIGHT = 5; // mm in front of the surface, where the needle waits
 
 const TO_A_VESSEL = 30; // degrees to the skin, as in the ready exercise; upright, the tip is longer than a vein is wide
@@ -28,18 +29,19 @@ export function draftOf(scene: SceneOutline, name = ""): Draft {
   const { membranes } = scene;
   const behind = membranes.find((one) => one.name === name) ?? membranes[Math.max(0, membranes.length - 2)]!;
   const vessel = behind.behind === "blood";
-  const next = scene.membranes[scene.membranes.indexOf(behind) + 1];
-  const layers = layersOf(scene.membranes);
   const at = scene.membranes.indexOf(behind);
-  const room = next ? round((layers[at + 1]!.top - layers[at]!.bottom) * 1e3) : null;
+  const [layer, next] = layersOf(scene.membranes).slice(at);
+  const between = next ? round((next.top - layer!.bottom) * 1e3) : null;
+  const touches = between !== null && between <= LEAST_ROOM; // then the space is the next layer
+  const room = touches ? round((next!.bottom - next!.top) * 1e3) : between;
   return {
     title: "My exercise",
     instruction: `Push in${vessel ? ` at ${TO_A_VESSEL} degrees` : ""} until the ${behind.name} gives way, and stop.`,
     scene: scene.name,
-    space: SPACES[behind.behind] ?? `the space behind the ${behind.name}`,
+    space: SPACES[behind.behind] ?? (touches ? `the ${next!.name}` : `the space behind the ${behind.name}`),
     behind: behind.name,
     from: 0,
-    to: room !== null && room > 0.2 ? room : 8,
+    to: room !== null && room > LEAST_ROOM ? room : 8,
     angle: vessel ? TO_A_VESSEL : 90,
     wholeTip: vessel,
     blind: false,

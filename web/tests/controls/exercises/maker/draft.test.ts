@@ -63,6 +63,12 @@ test("a new exercise asks for the space between the last two membranes", () => {
   expect([draft.behind, draft.from, draft.to]).toEqual(["front", 0, 3]);
 });
 
+test("where the next layer touches the membrane, the space is that layer", () => {
+  const membranes = [membrane("skin", 0, 1.2e-3), membrane("fat", 1.2e-3, 6e-3), membrane("muscle", 7.2e-3, 9e-3)];
+  const draft = draftOf({ ...SCENE, membranes } as unknown as SceneOutline, "skin");
+  expect([draft.space, draft.to]).toEqual(["the fat", 6]);
+});
+
 test("what the teacher has not edited follows the membrane of the goal", () => {
   const first = draftOf(SCENE);
   const skin = changed(first, { behind: "skin" }, SCENE, new Set());
