@@ -30,6 +30,11 @@ ROWS = """() => {
   return rows.size;
 }"""
 
+NO_WEBGL = """const before = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...of) {
+  return kind.startsWith("webgl") ? null : before.call(this, kind, ...of);
+};"""
+
 
 @pytest.fixture
 def studio(tmp_path):
@@ -94,6 +99,24 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(marks(page)).to_have_count(0)
     expect(sentence).to_contain_text("the needle is out")
     page.wait_for_function(f"() => ({ROWS})() < ({before} + {pushed}) / 2")  # what is left is the way out, in air
+
+
+def test_without_webgl_the_slice_is_the_stage_and_a_drag_along_its_needle_goes_through_the_skin(browser, studio):
+    with opened(browser, studio.url, script=NO_WEBGL, bench=False) as page:
+        expect(page.locator(".slice canvas")).to_be_visible()
+        expect(page.locator(".stage-number")).to_contain_text("N")
+        box = page.locator(".view-pad").bounding_box()
+        assert box
+        x, y = box["x"] + 0.1 * box["width"], box["y"] + 0.1 * box["height"]
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for step in range(100):
+            page.mouse.move(x + 0.87 * 8 * step, y + 0.5 * 8 * step)
+            page.wait_for_timeout(50)
+            if marks(page).count():
+                break
+        page.mouse.up()
+        expect(marks(page)).not_to_have_count(0)
 
 
 def test_words_and_no_frame_tell_that_the_keys_move_the_needle(page):

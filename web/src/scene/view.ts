@@ -7,6 +7,7 @@ import { asTissue } from "../tissue/layers.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { poseBeside } from "./expert.ts";
+import { flatGrip } from "./flat_grip.ts";
 import { framingOf } from "./framing.ts";
 import { gestures } from "./gestures.ts";
 import { gestureHelp } from "./help.ts";
@@ -69,8 +70,14 @@ export const view: Panel = (host, app) => {
     const speak = spoken(host);
     host.tabIndex = 0;
     host.setAttribute("role", "application");
-    host.setAttribute("aria-label", "The needle, moved by keys");
+    host.setAttribute("aria-label", "The needle, moved by keys and by a drag");
     viewKeys(host, handOf(app), orbit, () => showLastAgain(app), thumbOf(app));
+    const pad = element("div", { class: "view-pad" });
+    host.prepend(pad);
+    gestures(
+      pad,
+      flatGrip(app, handOf(app), probeOf(app), thumbOf(app), () => pad.clientWidth),
+    );
     followInWords(app, speak);
     return;
   }
