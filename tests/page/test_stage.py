@@ -5,6 +5,7 @@ from axe import AXE, none_found
 from person import opened, ready, tab, view, whole_at
 from playwright.sync_api import Page, expect
 from studio_process import StudioProcess
+from watched_page import COUNT
 
 SIZES = ((1920, 1080), (1440, 900), (1024, 768), (720, 450), (390, 844))
 WORDS_WHOLE = """() => [".stage-sentence", ".stage-number", ".stage-buttons"].every((at) => {
@@ -34,6 +35,16 @@ NO_WEBGL = """const before = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...of) {
   return kind.startsWith("webgl") ? null : before.call(this, kind, ...of);
 };"""
+# The seconds that twelve frames of the browser take, and what is drawn in them.
+DRAWN_MEANWHILE = """() => new Promise((done) => {
+  const [before, from] = [{...drawn}, performance.now()];
+  const look = () => {
+    if (drawn.frames < before.frames + 12) return setTimeout(look, 20);
+    const more = Object.keys(drawn).map((what) => [what, drawn[what] - before[what]]);
+    done([(performance.now() - from) / 1e3, Object.fromEntries(more)]);
+  };
+  look();
+})"""
 
 
 @pytest.fixture
@@ -170,6 +181,20 @@ def test_a_blind_exercise_has_its_words_on_the_stage_of_a_phone(page):
     expect(page.locator(".stage-sentence")).to_contain_text("Push slowly")
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function(WORDS_WHOLE)
+
+
+@pytest.mark.parametrize("bench", [False, True])
+def test_a_needle_at_rest_costs_no_pictures_of_view_and_curve_and_one_of_a_plot_a_second(browser, studio, bench):
+    with opened(browser, studio.url, script=COUNT, bench=bench) as page:
+        expect(page.locator(".view canvas")).to_be_visible()
+        if bench:
+            ready(page)
+        for _ in range(60):  # until the view has its full sharpness
+            seconds, drawn = page.evaluate(DRAWN_MEANWHILE)
+            if drawn["view"] == drawn["curve"] == 0:
+                break
+        assert drawn["view"] == drawn["curve"] == 0
+        assert drawn["plots"] <= (seconds + 1 if bench else 0)
 
 
 def test_the_bench_is_one_click_or_one_key_away_and_is_remembered(page):
