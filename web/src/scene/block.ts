@@ -157,6 +157,11 @@ export class Block {
     );
   }
 
+  /** The middle of its upper edge at the cut, where it is drawn now, mm. */
+  get middle(): Vector3 {
+    return this.cut.point(this.cut.centre, 0, this.cut.w);
+  }
+
   /** Depth of its lower face, mm. */
   get bottom(): number {
     return this.parts?.layers.at(-1)?.bottom ?? 0;

@@ -13,6 +13,11 @@ export class GoalMark {
   readonly group = new Group();
   /** Where its label belongs, mm. */
   readonly middle = new Vector3();
+  /** Where it is drawn before it follows the tissue, mm. */
+  private readonly from = new Vector3();
+  private readonly normal = new Vector3();
+  /** Of the goal's line; null without one. */
+  private along: Vector3 | null = null;
   private readonly material = new MeshBasicMaterial({
     transparent: true,
     opacity: 0.3,
@@ -38,7 +43,9 @@ export class GoalMark {
     const first = scene?.membranes[0];
     this.group.visible = goal !== null && first !== undefined;
     if (!goal || !first) return;
-    const normal = new Vector3(...first.inward_normal);
+    const normal = this.normal.set(...first.inward_normal).normalize();
+    this.group.position.set(0, 0, 0);
+    this.along = null;
     const [top, end] = bandOf(goal);
     const bottom = Math.max(top + 0.1, Math.min(end, deepest));
     const side = 2 * SHARE * size;
@@ -48,12 +55,14 @@ export class GoalMark {
       .addScaledVector(normal, (top + bottom) / 2);
     this.band.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, -1, 0), normal));
     this.band.scale.set(side, bottom - top, side);
-    this.middle.copy(this.band.position);
+    this.from.copy(this.band.position);
+    this.middle.copy(this.from);
     if (!goal.line) {
       this.line.setEnds(null);
       return;
     }
-    const along = new Vector3(...goal.line.along).normalize().multiplyScalar(size);
+    this.along = new Vector3(...goal.line.along).normalize();
+    const along = this.along.clone().multiplyScalar(size);
     const point = new Vector3(...goal.line.point).multiplyScalar(MM);
     this.line.setEnds([point.clone().sub(along), point.clone().add(along)]);
     this.band.scale.set(side, bottom - top, 2 * goal.line.within * MM);
@@ -64,6 +73,18 @@ export class GoalMark {
     const axes = new Matrix4().makeBasis(direction, normal.clone().negate(), across);
     this.band.quaternion.setFromRotationMatrix(axes);
     this.band.position.copy(point).addScaledVector(normal, (top + bottom) / 2 - depthOf(point, first));
+    this.from.copy(this.band.position);
+    this.middle.copy(this.from);
+  }
+
+  /** Moves it to the middle of the drawn tissue, mm, which follows the needle: along its line, or along the surface. */
+  follow(middle: Vector3): void {
+    const { along, normal } = this;
+    const way = middle.clone().sub(this.from);
+    if (along) way.copy(along).multiplyScalar(middle.clone().sub(this.from).dot(along));
+    else way.addScaledVector(normal, -way.dot(normal));
+    this.group.position.copy(way);
+    this.middle.copy(this.from).add(way);
   }
 }
 

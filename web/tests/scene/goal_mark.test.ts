@@ -27,6 +27,21 @@ test("the band lies between the goal's depths, below the first surface", () => {
   expect(mark.group.visible).toBe(false);
 });
 
+test("the mark stays in the drawn tissue, which follows the needle, and on its line", () => {
+  const mark = new GoalMark(theme);
+  const show = (line: GoalLine | null): void => mark.show({ name: "a", top: 0.005, bottom: 0.008, line }, scene, 10);
+  show(null);
+  mark.follow(new Vector3(-7, 1, 2));
+  expect(mark.group.position.toArray()).toEqual([-7, 0, 2]);
+  expect(mark.middle.toArray()).toEqual([-7, 1 - 6.5, 2]);
+  show({ point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 });
+  expect(mark.group.position.length()).toBe(0);
+  mark.follow(new Vector3(-7, 1, 2));
+  expect(mark.group.position.toArray().map((x) => x + 0)).toEqual([-7, 0, 0]);
+  expect(mark.middle.x).toBeCloseTo(-7);
+  expect(mark.middle.z).toBeCloseTo(4);
+});
+
 test("the band of a line lies around the line, as wide as the point may be beside it", () => {
   const mark = new GoalMark(theme);
   const line: GoalLine = { point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 };
