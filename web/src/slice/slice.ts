@@ -1,6 +1,7 @@
+import type { Vector3 } from "three";
 import { element, everyFrame } from "../panel.ts";
 import { Moment } from "../scene/moment.ts";
-import { type Probe, placeAtNeedle, type SkinFrame, skinFrame } from "../scene/probe.ts";
+import { type Probe, placeAtNeedle, planeOf, type SkinFrame, skinFrame } from "../scene/probe.ts";
 import type { App } from "../state/app.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { PROBE_KEYS, probeButtons, probeDrag, probeKeys, probeSliders } from "./controls.ts";
@@ -14,8 +15,11 @@ const INTERVAL_MS = 30; // between two pictures
 const WORDS_MS = 500;
 const SHARPEST = 2; // device pixels per CSS pixel, along each side
 
-/** The slice: a picture like that of ultrasound, drawn from the same moment as the 3-D view. */
-export function slice(host: HTMLElement, app: App, probe: Probe, close: () => void): void {
+/**
+ * The slice: a picture like that of ultrasound, drawn from the same moment as the 3-D view. follows: whether the probe
+ * goes with a needle that leaves the middle of the picture.
+ */
+export function slice(host: HTMLElement, app: App, probe: Probe, close: () => void, follows: () => boolean): void {
   const canvas = element("canvas", {
     tabindex: 0, role: "application", "aria-label": `Slice through the tissue. ${MARK}`,
     "aria-describedby": "slice-words slice-help",
@@ -65,6 +69,7 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
     if (host.hidden || !scene || now - drawnAt < INTERVAL_MS || size.width < 20 || size.height < 20) return;
     if (source.history.membranes !== scene.membranes.length || !moment.read(source)) return;
     if (scene !== built?.scene) build(scene);
+    if (follows() && built && leaves(built.skin, moment.tip, probe)) toNeedle(false);
     const place = probe.place.value;
     const key = keyOf(moment, [place.x, place.z, place.turn, quality.level]);
     if (key !== drawn && built) {
@@ -88,6 +93,12 @@ function keyOf({ tip, axis, membranes }: Moment, other: readonly number[]): stri
   const round = (values: readonly number[], step: number): string => values.map((v) => Math.round(v / step)).join();
   const proxies = membranes.map(({ phase, proxy }) => `${phase}:${round(proxy.toArray(), 0.02)}`).join();
   return `${round(tip.toArray(), 0.02)} ${round(axis.toArray(), 0.004)} ${round(other, 1e-3)} ${proxies}`;
+}
+
+/** Whether the tip is outside the middle half of the picture. */
+function leaves(skin: SkinFrame, tip: Vector3, { place, picture }: Probe): boolean {
+  const { origin, along } = planeOf(skin, place.value);
+  return picture.value !== null && Math.abs(tip.clone().sub(origin).dot(along)) > picture.value.width / 4;
 }
 
 /** The same object while the size stays, so that nobody is told of a change that is none. */

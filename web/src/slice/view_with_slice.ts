@@ -14,6 +14,8 @@ export const viewWithSlice: Panel = (host, app) => {
   host.append(main, beside);
   const probe = probeOf(app);
   view(main, app);
+  const page = pageOf(app);
+  const flat = main.querySelector("canvas")?.hidden === true;
   const button = element(
     "button",
     { type: "button", title: "A slice through the tissue, drawn like an ultrasound picture", "aria-controls": "slice" },
@@ -35,7 +37,7 @@ export const viewWithSlice: Panel = (host, app) => {
       button.focus();
     };
     void import("./slice.ts").then(
-      ({ slice }) => slice(beside, app, probe, close),
+      ({ slice }) => slice(beside, app, probe, close, () => flat && page.value === "stage"),
       () => {
         started = false;
         app.notify("The slice could not be loaded.");
@@ -47,6 +49,5 @@ export const viewWithSlice: Panel = (host, app) => {
     remember(open);
   });
   (main.querySelector(".view-tools") ?? main).append(button);
-  const flat = main.querySelector("canvas")?.hidden === true;
-  pageOf(app).watch((page) => show(page === "stage" ? flat : wasOpen()));
+  page.watch((now) => show(now === "stage" ? flat : wasOpen()));
 };

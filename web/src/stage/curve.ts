@@ -44,6 +44,7 @@ export class CurvePicture {
   private points = 0; // of the attempt that are drawn
   private most = 0;
   private depth: (mm: number) => number = () => 0;
+  private axis = 0; // px, where the lines of the force begin, below its numbers
 
   constructor() {
     this.root = element("div", { class: "stage-curve" }, this.canvas, this.head, this.marks);
@@ -159,6 +160,7 @@ export class CurvePicture {
     const end = Math.min(height, depth(deep));
     // The numbers of the force stand above the skin.
     const axis = Math.max(TOP * letter, Math.min(skin - 2 * letter, height));
+    this.axis = axis;
     const step = niceStep(force.max - force.min, Math.max(2, width / 80));
     for (const value of ticks(force.min, force.max, step)) {
       const x = Math.round(force.px(value)) + 0.5;
@@ -177,7 +179,8 @@ export class CurvePicture {
       const y = Math.round(depth(value)) + 0.5;
       if (y > height - 5) break;
       pen.segment(AXIS - 4, y, AXIS, y, { colour: theme.quiet, width: 1 });
-      pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
+      // The tissue follows the needle, and may come under the numbers.
+      pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end", halo: theme.panel });
     }
   }
 
@@ -190,7 +193,8 @@ export class CurvePicture {
       else piece.add(force.px(path.xs[i]!), depth(path.ys[i]!));
     }
     this.points = path.count;
-    pen.within(AXIS, 0, this.width - AXIS, this.height, () => pen.line(piece, { colour: theme.text, width: 2.5 }));
+    const { axis, width, height } = this;
+    pen.within(AXIS, axis, width - AXIS, height - axis, () => pen.line(piece, { colour: theme.text, width: 2.5 }));
   }
 
   private drawHead(now: Felt | null): void {
