@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from punctura import Needle
-from punctura.identify.all_extensions import from_all, reduced
 from punctura.identify.criteria import Candidate
 from punctura.identify.fit import Start
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
@@ -18,6 +17,7 @@ from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace
 
+ALL = "all extensions"
 SETTLED = 2  # better optima of the chosen model, found by hops, at most
 MOST_CHANGES = 3  # of the number of membranes, each by one
 FAR = 1.5  # times the noise: then the fits of one membrane more hop, too
@@ -204,3 +204,42 @@ def _one_more(search: Search, current: Candidate) -> Iterator[Candidate]:
         found = search.fitted(f"{count} membranes", model, from_these, hops=far)
         if found is not None and found.fit.sse < current.fit.sse:
             yield found if model is models[0] else _extended(search, found)
+
+
+def from_all(search: Search, current: Candidate) -> Candidate:
+    """The model with all extensions that the trace can show, reduced, if the rule prefers it.
+
+    With several walls, an extension is often worth it only at an optimum where the others are there, too. So hops look
+    for the best end of all together.
+    """
+    model, enough = current.model, noise_limit(search.trace)
+    if model.membranes < 2 or current.fit.weighted_rmse < enough:
+        return current
+    for _ in range(2):  # the second branch of a relaxation comes after the first one
+        for extension in extensions(search.needle):
+            if seen(search.segments, extension, model):
+                model = model.extended(extension)
+    if model == current.model:
+        return current
+    here = current.fit.parameters
+    found = search.fitted(ALL, model, [Start(model.start(here, weak)) for weak in (True, False)], hops=True)
+    if found is None:
+        return current
+    found = reduced(search, found)
+    return found if search.rule.prefers(found, current) else current
+
+
+def reduced(search: Search, current: Candidate) -> Candidate:
+    """Without the extensions that are not worth it where the current fit ends."""
+    while True:
+        fits = []
+        for extension in current.model.extensions:
+            model = current.model.without(extension)
+            start = Start(model.switched_off(current.fit.parameters))
+            found = search.fitted(f"without {extension.name}", model, [start])
+            if found is not None:
+                fits.append(found)
+        preferred = [one for one in fits if search.rule.prefers(one, current)]
+        if not preferred:
+            return current
+        current = min(preferred, key=lambda one: one.worth(current.effective).bic)

@@ -32,8 +32,7 @@ from punctura.identify.population import population
 from punctura.identify.records import FailedRecord, FolderRecord, TaskRecord, TraceRecord, TraceRow
 from punctura.identify.rig import UNKNOWN, Rig, check
 from punctura.trace.read import read_as
-from punctura.trace.reading import Reading
-from punctura.trace.sheets import SheetError
+from punctura.trace.reading import Reading, SheetError
 from punctura.trace.tables import read_table
 
 LONGEST = 200  # bytes of a name; a temporary file adds to it

@@ -16,10 +16,9 @@ from typing import NamedTuple
 from punctura._core import Device, ForceLimits, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
 from punctura.errors import ConfigurationError, Problem
 from punctura.files.fields import Buttons, Number
-from punctura.files.tables import Table
+from punctura.files.tables import Table, in_si, read_table
 from punctura.files.units import split_key
 from punctura.live.choose import gate_for
-from punctura.live.tables import in_si, read_table
 
 _RATED = {"max_force_N": "max_force", "continuous_force_N": "continuous_force"}  # no device gives more
 

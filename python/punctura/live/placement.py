@@ -14,8 +14,7 @@ import numpy.typing as npt
 
 from punctura._core import DeviceError, Placement, ServoLoop
 from punctura.files.fields import Number, Quaternion, Vector
-from punctura.files.tables import Table
-from punctura.live.tables import in_si, read_table
+from punctura.files.tables import Table, in_si, read_table
 
 Array = npt.NDArray[np.float64]
 POLL_S = 0.01

@@ -14,8 +14,7 @@ from punctura.defects import PATIENCE_S, explain
 from punctura.files.names import as_text
 from punctura.trace.numbers import InsertionNumbers, numbers_of
 from punctura.trace.read import read_as
-from punctura.trace.reading import Reading
-from punctura.trace.sheets import SheetError
+from punctura.trace.reading import Reading, SheetError
 from punctura.trace.trace import Trace, TraceError
 
 Row = dict[str, str | int | float | None]  # a row of the table: the columns depend on the number of pops

@@ -14,8 +14,7 @@ from punctura.trace.cells import column
 from punctura.trace.decimals import numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import with_unit
-from punctura.trace.reading import Reading
-from punctura.trace.sheets import is_trace, only_trace, wanted_sheet
+from punctura.trace.reading import Reading, is_trace, only_trace, wanted_sheet
 from punctura.trace.table import Table, check_bytes, check_size
 from punctura.trace.trace import TraceError
 

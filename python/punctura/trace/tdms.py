@@ -13,8 +13,7 @@ import numpy as np
 
 from punctura.extras import optional
 from punctura.trace.heading import unique, with_unit
-from punctura.trace.reading import Reading
-from punctura.trace.sheets import is_trace, only_trace, wanted_sheet
+from punctura.trace.reading import Reading, is_trace, only_trace, wanted_sheet
 from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import Finding, TraceError
 

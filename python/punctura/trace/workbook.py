@@ -13,8 +13,7 @@ from punctura.trace.decimals import Decimal, decimal_in
 from punctura.trace.heading import column_names, first_row, with_unit
 from punctura.trace.lines import LOOKED_AT
 from punctura.trace.packed import check_workbook
-from punctura.trace.reading import Reading
-from punctura.trace.sheets import only_trace, wanted_sheet
+from punctura.trace.reading import Reading, only_trace, wanted_sheet
 from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import TraceError
 
