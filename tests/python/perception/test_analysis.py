@@ -20,7 +20,7 @@ from scipy.optimize import minimize
 from scipy.special import ndtr
 
 SHARP = Observer(weber=0.06)
-FAINT = Observer(weber=0.0, noise=0.03, criterion=0.285)
+FAINT = Observer(noise=0.03, criterion=0.285)
 TEXTS = {"compares": COMPARES, "right": RIGHT, "yes": YES}
 Row = tuple[str, str, str, int, Observer]
 ROWS: list[Row] = [  # title, protocol, method, trials, observer
