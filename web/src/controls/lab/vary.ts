@@ -53,10 +53,12 @@ export function varyForm(act: (job: Variation, title: string) => void): {
     event.preventDefault();
     const by = motion.value.startsWith("stroke ") ? Number(motion.value.slice(7)) / 1e3 : motion.value.slice(10);
     const [, gain] = shownUnit(chosen().unit);
+    // 0.285 / 1e-3 is not 285.
+    const si = ({ value }: HTMLInputElement): number => Number((Number(value) / gain).toPrecision(12));
     const job = {
       path: field.value,
-      from: Number(from.value) / gain,
-      to: Number(to.value) / gain,
+      from: si(from),
+      to: si(to),
       count: Number(count.value),
       motion: by,
       id: Math.random().toString(36).slice(2),
