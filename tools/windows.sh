@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds core, runtime and their tests for Windows with mingw-w64, and runs them under Wine where possible.
+# Builds core, runtime and their tests for Windows with mingw-w64, and runs them under Wine where possible. Starts an FMU
+# in a folder whose name is not ASCII.
 #   tools/windows.sh            builds and runs
 # Needs Debian's g++-mingw-w64-x86-64-posix, wine, wine64 and doctest-dev; installs them as root. Results:
 # docs/windows-and-macos.md.
@@ -42,4 +43,13 @@ for tests in runtime core; do
   "$wine" "build/windows/tree/tests/$tests/${tests}_tests.exe" \
     ${left_out[@]+"--test-case-exclude=$(IFS=,; echo "${left_out[*]}")"} || failed=1
 done
+
+echo "== an FMU under Wine"
+compiler=(x86_64-w64-mingw32-g++-posix -std=c++20 -O1 -static -Icore -Icapi/include -Icapi/src)
+"${compiler[@]}" -shared -DPUNCTURA_STATIC -DPUNCTURA_VERSION='""' integrations/fmi/*.cpp capi/src/*.cpp \
+  -o build/windows/fmu.dll
+"${compiler[@]}" tests/windows/fmu_folder.cpp -o build/windows/fmu_folder.exe
+python -c "import punctura as pn; from punctura.fmu.description import scene_file_text
+print(end=scene_file_text(pn.load_scene('k06-fig12')))" >build/windows/scene.txt
+"$wine" build/windows/fmu_folder.exe build/windows/fmu.dll build/windows/scene.txt || failed=1
 exit $failed

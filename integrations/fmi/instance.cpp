@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -43,10 +44,12 @@ void Saved::write(unsigned char* to) const noexcept {
 
 std::unique_ptr<Instance> Instance::make(const std::string& resources, std::string& error) {
   auto made = std::make_unique<Instance>();
-  std::ifstream file(resources + "/scene.txt", std::ios::binary);
+  // FMI gives the folder in UTF-8. On Windows a narrow string would be read in the system's code page.
+  const std::string name = resources + "/scene.txt";
+  std::ifstream file(std::filesystem::path(std::u8string(name.begin(), name.end())), std::ios::binary);
   made->text_.assign(std::istreambuf_iterator<char>(file), {});
   if (!file) {
-    error = "cannot read " + resources + "/scene.txt: the FMU is not complete";
+    error = "cannot read " + name + ": the FMU is not complete";
     return nullptr;
   }
   if (made->reset()) return made;
