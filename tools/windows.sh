@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds core, runtime and their tests for Windows with mingw-w64, and runs them under Wine where possible. Starts an FMU
-# in a folder whose name is not ASCII.
+# Builds core, runtime and their tests for Windows with mingw-w64, and runs them under Wine where possible; starts an
+# FMU in a folder whose name is not ASCII.
 #   tools/windows.sh            builds and runs
 # Needs Debian's g++-mingw-w64-x86-64-posix, wine, wine64 and doctest-dev; installs them as root. Results:
 # docs/windows-and-macos.md.
