@@ -17,7 +17,7 @@ author = "the Punctura contributors"
 version = release = punctura.__version__
 html_title = f"Punctura {release}"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "search_texts"]
 root_doc = "index"
 include_patterns = [*PAGES, "reference/**", "gallery/*"]
 exclude_patterns = ["capi/**", "core/**", "runtime/**", "python/**"]
