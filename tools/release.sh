@@ -63,7 +63,7 @@ make_wheel() {
   done
   local one
   for one in ${PYTHON:-python3}; do wheel_for "$one"; done
-  [ "$machine" != x86_64 ] || "$root/tools/check_isa.sh" "$(find "$unpacked"/build/python/cp* -prune | head -n 1)"
+  for one in "$unpacked"/build/python/cp*; do [ "$machine" != x86_64 ] || "$root/tools/check_isa.sh" "$one"; done
 }
 
 # wheel_for PYTHON: makes its wheel, and uses it in a new environment.
