@@ -73,7 +73,7 @@ def test_it_is_met_or_missed_with_a_reason(write, kind, cuts):
 @pytest.mark.parametrize("kind", GOALS)
 def test_without_readings_it_is_not_measured(write, kind):
     columns = straight()
-    if kind == "entry_angle":
+    if kind in ("entry_angle", "straight"):
         columns |= {"axis": np.full_like(columns["axis"], np.nan), "direction": columns["direction"] * np.nan}
     else:
         keep = np.ones(len(columns["tick"]), dtype=bool)
@@ -81,6 +81,33 @@ def test_without_readings_it_is_not_measured(write, kind):
         columns = {name: column[keep] for name, column in columns.items()}
     state, reason_given, text = of(write, columns, GOALS[kind][0])
     assert state == "not measured" and f"Not measured: “{text}”" in reason_given
+
+
+def steep(turn):
+    """A needle at 70 degrees to the skin, turned from the start's heading, degrees."""
+    columns = straight()
+    n, (along, down) = len(columns["tick"]), (np.cos(np.radians(70)), np.sin(np.radians(70)))
+    axis = np.tile([along * np.cos(np.radians(turn)), -down, along * np.sin(np.radians(turn))], (n, 1))
+    return columns | {"axis": axis, "direction": np.tile(axis[:, None], (1, len(SCENE.membranes), 1))}
+
+
+@pytest.mark.parametrize("length", [1, 2])
+@pytest.mark.parametrize(("turn", "state"), [(0, "met"), (15, "met"), (25, "missed"), (180, "missed")])
+def test_the_heading_is_judged_whatever_the_tolerance_of_the_angle_and_the_length_of_the_normal(
+    write, turn, state, length
+):
+    scene = SCENE.replace(
+        membranes=[one.replace(inward_normal=[length * v for v in one.inward_normal]) for one in SCENE.membranes]
+    )
+    asked = goal("entry_angle", angle_deg=70, within_deg=25, turned_at_most_deg=20)
+    exercise = load_exercise(write(goal("stay", seconds=0.5), asked, head=DEEP))
+    assert judged(exercise, steep(turn), 160, scene).finish().goals[1].state == state
+
+
+def test_the_coaching_does_not_depend_on_how_ticks_are_cut(write):
+    exercise = load_exercise(write(goal("stay", seconds=0.5), goal("straight", within_mm=1), head=DEEP))
+    made = [judged(exercise, sliding(), cuts, SCENE).finish().coaching for cuts in (7, 160, 100_000)]
+    assert made[0] == made[1] == made[2] and made[0].change[0].about == "aside"
 
 
 def test_the_angle_and_the_depth_are_those_of_the_start_and_of_the_space_if_left_out(write):

@@ -18,6 +18,7 @@ from punctura.exercise.seen import STEADILY, Seen, off_angle
 from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, Numbers, TargetSpace, by, first_of
 
 ROUNDING_RAD = 1e-9
+UPRIGHT_RAD = math.radians(3)  # a needle that leans less has no heading
 SPEED_MEAN_S = 0.1  # over which a speed is measured: a period of tremor, or nearly
 PAUSE_MEAN_S = 0.25  # over which a speed is measured: longer than a period of tremor
 
@@ -51,15 +52,13 @@ class AngleJudge(LimitJudge):
         self.entered: float | None = None  # rad, of the first wrong entry
         self.turned: float | None = None  # rad from the start's heading, of the first entry that is turned too far
         self._first: Moment | None = None
-        self._normal, self._heading = np.asarray(first.inward_normal, np.float64), np.asarray(course.start.heading)
+        normal = np.asarray(first.inward_normal, np.float64)
+        self._normal, self._heading = normal / np.linalg.norm(normal), np.asarray(course.start.heading, np.float64)
 
     def _turned(self, held: Numbers) -> float:
-        """The angle between the needle and the start's heading, seen along the normal, rad.
-
-        A needle has no heading if it is upright within the tolerance of its angle: 0.
-        """
+        """The angle between the needle and the start's heading, seen along the normal, rad; 0 if it is upright."""
         along, asked = (v - (v @ self._normal) * self._normal for v in (held, self._heading))
-        if np.linalg.norm(along) <= math.sin(math.radians(self.within_deg)):
+        if np.linalg.norm(along) <= math.sin(UPRIGHT_RAD):
             return 0.0
         return math.atan2(float(np.linalg.norm(np.cross(asked, along))), float(asked @ along))
 

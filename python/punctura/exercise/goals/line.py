@@ -152,7 +152,6 @@ class StraightJudge(LimitJudge):
     def __init__(self, goal: Straight) -> None:
         super().__init__(goal.text or f"Stay within {goal.within_mm:g} mm of the line of entry")
         self.within = goal.within_mm * 1e-3
-        self.farthest = 0.0  # m, up to the first miss
         self._entry: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # point, m, and direction
         self._first: Moment | None = None
 
@@ -165,14 +164,14 @@ class StraightJudge(LimitJudge):
         for k, (start, stop) in enumerate(pairwise([0, *cuts, len(ticks)])):
             if k:
                 self._entry = ticks.tip[start], ticks.held[start]
+                if not np.isfinite(ticks.angle[start]):  # then `held` is only the first membrane's normal
+                    self.unseen = self.unseen or Moment(touches[k - 1].tick, touches[k - 1].time)
             if self._entry is not None:
                 offset = ticks.tip[start:stop] - self._entry[0]
                 aside[start:stop] = np.linalg.norm(np.cross(offset, self._entry[1]), axis=1)
         self._watch(ticks, np.isfinite(aside))
-        here = ticks.inside.any(axis=1)
-        if self.missed is None and here.any():
-            self.farthest = max(self.farthest, float(np.fmax.reduce(aside[here])))
-        self._miss(ticks, here & (aside > self.within))
+        if self.unseen is None:
+            self._miss(ticks, ticks.inside.any(axis=1) & (aside > self.within))
 
     def measured(self, until: Moment | None) -> bool:
         return by(self._first, until) and super().measured(until)
@@ -182,7 +181,7 @@ class StraightJudge(LimitJudge):
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
         text = (
-            f"The tip went {mm(self.farthest)} to the side of its line of entry; {mm(self.within)} are allowed: push "
-            "along the needle, and hold it there."
+            f"The tip went more than {mm(self.within)} to the side of its line of entry: push along the needle, and "
+            "hold it there."
         )
-        yield Remark(about="aside", text=text, numbers={"aside_m": self.farthest, "allowed_m": self.within})
+        yield Remark(about="aside", text=text, numbers={"allowed_m": self.within})
