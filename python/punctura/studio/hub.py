@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,10 +15,11 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from punctura.studio.hand import Pose
-from punctura.studio.limits import MOST_MESSAGES, MOST_ON_WAY, MOST_TICKS, MOST_VIEWERS
+from punctura.studio.limits import MOST_JOINED, MOST_MESSAGES, MOST_ON_WAY, MOST_TICKS, MOST_VIEWERS, UNREAD_S
 from punctura.studio.wire.frames import SEVERAL, joined
 from punctura.studio.wire.messages import Control, HandPose, Status
 
+UNREAD = "This page does not read what it is sent."
 EVENTS_KEPT = 100  # of the present run, for new viewers
 # Of these messages only the newest matters: it takes the place of one that still waits, unless a scene came between.
 SUPERSEDED = ("status", "recording", "laws", "exercise")
@@ -38,8 +40,9 @@ class Waiting:
 class Viewer:
     """One page. `take` returns what to send next; `closed` is the reason for closing."""
 
-    def __init__(self, number: int) -> None:
+    def __init__(self, number: int, clock: Callable[[], float] = time.monotonic) -> None:
         self.number = number
+        self._clock = clock
         self.dropped = 0  # frames
         self.closed = ""
         self._queue: deque[Waiting] = deque()
@@ -47,10 +50,13 @@ class Viewer:
         self._ticks = self._bytes = 0  # bytes of frames and of messages in the queue
         self._on_way = 0  # messages with ticks that were taken here and not yet by the page
         self._answers = False  # whether the page says when it has taken one
+        self._heard = 0.0  # s, when it last said so
         self._wake = asyncio.Event()
 
     def put(self, data: Data, kind: str = "") -> None:
         """kind: of a message."""
+        if self._waits and self._clock() - self._heard >= UNREAD_S:
+            self.close(UNREAD)
         if self.closed:
             return
         if isinstance(data, bytes):
@@ -61,7 +67,7 @@ class Viewer:
             waiting = self._last.get(kind)
             self._bytes += len(data) - (len(waiting.data) if waiting else 0)
             if self._bytes > MOST_MESSAGES:
-                self.close("This page does not read what it is sent.")
+                self.close(UNREAD)
                 return
             if waiting:  # at the end of the queue, a page that reads slowly would never get it
                 waiting.data = data
@@ -96,28 +102,31 @@ class Viewer:
 
     def took(self) -> None:
         """The page has taken a message with ticks."""
-        self._answers = True
+        self._answers, self._heard = True, self._clock()
         self._on_way = max(0, self._on_way - 1)
         self._wake.set()
 
     @property
     def ready(self) -> bool:
         """Whether there is something to send now."""
-        if not self._queue:
-            return False
-        waits = self._answers and self._on_way >= MOST_ON_WAY
-        return not (waits and isinstance(self._queue[0].data, bytes))
+        return bool(self._queue) and not (self._waits and isinstance(self._queue[0].data, bytes))
+
+    @property
+    def _waits(self) -> bool:
+        """Whether the page must answer before it gets more ticks."""
+        return self._answers and self._on_way >= MOST_ON_WAY
 
     def _with_the_next(self, frame: bytes) -> bytes:
         """A message with this frame, and for a page that answers with those that wait behind it."""
-        frames = [frame]
+        frames, size = [frame], len(frame)
         while self._answers and self._queue:
             data = self._queue[0].data
-            if isinstance(data, str):
+            if isinstance(data, str) or size + len(data) > MOST_JOINED:
                 break
             frames.append(data)
+            size += len(data)
             self._queue.popleft()
-        self._ticks -= sum(map(len, frames))
+        self._ticks -= size
         self._on_way += 1
         return frame if len(frames) == 1 else SEVERAL + joined(frames)
 

@@ -7,7 +7,7 @@ from collections import deque
 
 import numpy as np
 from punctura.studio import hub as hubs
-from punctura.studio.hub import Hub
+from punctura.studio.hub import Hub, Viewer
 from punctura.studio.wire.frames import split
 from punctura.studio.wire.messages import (
     ExerciseStatus,
@@ -138,6 +138,39 @@ def test_a_page_that_answers_gets_every_tick_soon_however_slowly_it_takes_messag
 def frames_of(message):
     """The numbers in the frames of a message."""
     return [struct.unpack("<I", frame)[0] for frame in split(message)]
+
+
+def test_a_page_that_does_not_answer_any_more_has_to_go():
+    async def test():
+        now = 0.0
+        viewer = Viewer(1, lambda: now)
+        viewer.took()
+        for _ in range(hubs.MOST_ON_WAY + 1):
+            viewer.put(FRAME)
+            if viewer.ready:
+                await viewer.take()
+        now = hubs.UNREAD_S / 2
+        viewer.took()
+        await viewer.take()
+        now *= 2.9
+        viewer.put(FRAME)
+        assert not viewer.closed and not viewer.ready
+        now = 1.5 * hubs.UNREAD_S
+        viewer.put(FRAME)
+        assert viewer.closed == hubs.UNREAD and await viewer.take() is None
+
+    asyncio.run(test())
+
+
+def test_a_message_with_several_frames_has_a_bound():
+    async def test():
+        viewer, frame = Viewer(1), bytes(hubs.MOST_JOINED // 4)
+        viewer.took()
+        for _ in range(10):
+            viewer.put(frame)
+        assert [len(split(await viewer.take())) for _ in range(hubs.MOST_ON_WAY)] == [4, 4]
+
+    asyncio.run(test())
 
 
 def test_a_message_with_ticks_ends_where_another_message_comes():
