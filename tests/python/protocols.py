@@ -25,7 +25,7 @@ RIGHT = (
     .replace("per_level = 20\nblocks = 2", "total = 120")
 )
 ADJUST = (
-    COMPARES.replace("[0.2, 0.3, 0.36, 0.46, 0.52, 0.62]", str([round(0.26 + 0.03 * i, 2) for i in range(11)]))
+    COMPARES.replace("[0.2, 0.3, 0.36, 0.46, 0.52, 0.62]", str([round(0.14 + 0.03 * i, 2) for i in range(19)]))
     .replace('"constant"', '"adjustment"')
     .replace('"two_intervals"', '"adjustment"')
     .replace("per_level = 20", "total = 12")

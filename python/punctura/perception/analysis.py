@@ -155,7 +155,7 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, ob
         log = protocol.file.task == "magnitude"
         result.slope = _slope(*((np.log(one[found.x > 0]) if log else one) for one in (found.x, found.counted)))
     elif protocol.adjusts:
-        result.threshold, result.jnd = _settings(found.x)
+        result.threshold, result.jnd = _settings(protocol, found)
         result.weber = _weber(result.jnd, found.reference)
     else:
         _fit(protocol, found, result)
@@ -207,7 +207,9 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
         same = [what for what, one in (("rating", found.counted), ("level", found.x)) if np.ptp(one) == 0]
         return f"every {same[0]} was the same, so there is no slope" if same else ""
     if protocol.adjusts:
-        return "" if np.ptp(found.x) else "every setting was the same: make the steps between the levels smaller"
+        if np.isin(found.level, (protocol.levels[0], protocol.levels[-1])).any():
+            return "settings reach the end of the levels: show more"
+        return "" if np.ptp(found.level) else "every setting was the same: make the steps between the levels smaller"
     if share in (0.0, 1.0):
         what = {"yes_no": ("no", "yes")}.get(protocol.file.task, ("wrong", "right"))
         what = ("the reference", "the comparison") if protocol.compares else what
@@ -227,11 +229,17 @@ def _slope(x: Array, y: Array) -> Estimate:
     return Estimate(slope, slope - half, slope + half)
 
 
-def _settings(x: Array) -> tuple[Estimate, Estimate]:
-    """The mean setting, and the JND: the deviation that half of the settings exceed, if they are normal."""
-    jnd, free = QUARTER * float(x.std(ddof=1)), len(x) - 1
-    low, high = (float(np.sqrt(free / chdtri(free, share))) for share in SHARES)
-    return _mean(x), Estimate(jnd, low * jnd, high * jnd)
+def _settings(protocol: Protocol, found: Answers) -> tuple[Estimate, Estimate]:
+    """The mean setting, and the JND: the deviation that half of the settings exceed, if they are normal.
+
+    Settings that scatter by less than the steps between the levels show the steps: they tell how large the JND is at
+    most.
+    """
+    jnd, free = QUARTER * float(found.x.std(ddof=1)), len(found.x) - 1
+    low, high = (float(np.sqrt(free / chdtri(free, share))) * jnd for share in SHARES)
+    shown = [level for level in protocol.levels if found.level.min() <= level <= found.level.max()]
+    half = float(np.diff(shown).max()) / 2
+    return _mean(found.x), Estimate(jnd, low, high) if jnd >= half else Estimate(np.nan, -np.inf, max(high, half))
 
 
 def _estimate(belief: Belief, values: Array) -> Estimate:

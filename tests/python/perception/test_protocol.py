@@ -48,7 +48,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (YES, "levels = [0.0005,", "levels = [-0.0005,", "stimulus.levels[0]", "must be"),
         (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
         (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
-        (ADJUST, "reference = 0.41", "reference = 0.2", "stimulus.reference", "between the levels"),
+        (ADJUST, "reference = 0.41", "reference = 0.1", "stimulus.reference", "between the levels"),
         (ADJUST, 'task = "adjustment"', 'task = "two_intervals"', "method", "both be adjustment"),
         (SOLVED, "0.35]", "2.5]", "stimulus.levels[2]", "no scene gives 2.5 N"),
         (SOLVED, "between = [0.0, 1.5]", "", "stimulus.between", "is missing"),
