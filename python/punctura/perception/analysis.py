@@ -43,6 +43,7 @@ class Answers:
     block: Array
     side: Array  # 1: the comparison was in the first interval; -1: in another one
     catch: Array  # of the catch trials: 1 for a right answer, or for a "yes"
+    caught: Array  # (n, 3) of the catch trials: x, counted and side
     reference: float  # the level of the other intervals, as felt if the variable is a felt quantity; NaN without one
 
 
@@ -94,7 +95,7 @@ class Analysis:
 def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Answers:
     """The answers of a session's lines, without its header."""
     rows: list[tuple[float, ...]] = []
-    catch, references = [], []
+    catch, caught, references = [], [], []
     for line in lines:
         data: JsonObject = dict(line)
         hit = float(data["answer"] if protocol.rates else counted(protocol, data["position"], data["answer"]))
@@ -106,14 +107,17 @@ def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Ans
             right = felt if protocol.adjusts else hit
         elif planned != protocol.reference:
             right = float((hit == 1) == ((planned > (protocol.reference or 0.0)) == protocol.rises))
+        where = 1.0 if data["position"] == 0 else -1.0
         if data["kind"] == "catch":
             catch.append(right)
+            caught.append((felt, hit, where))
         elif data["kind"] == "trial":
             references.append(other)
-            rows.append((planned, felt, hit, right, float(data["block"]), 1.0 if data["position"] == 0 else -1.0))
+            rows.append((planned, felt, hit, right, float(data["block"]), where))
     level, x, hits, rights, block, side = np.array(rows, np.float64).reshape(-1, 6).T
     reference = float(np.mean(references)) if references else np.nan
-    return Answers(level, x, hits, rights, block, side, np.array(catch), reference)
+    others = np.array(caught, np.float64).reshape(-1, 3)
+    return Answers(level, x, hits, rights, block, side, np.array(catch), others, reference)
 
 
 def felt_level(protocol: Protocol, line: JsonObject) -> tuple[float, float]:
@@ -131,13 +135,16 @@ def felt_level(protocol: Protocol, line: JsonObject) -> tuple[float, float]:
 
 def belief_of(protocol: Protocol, answers: Answers) -> Belief:
     """The posterior of the psychometric function. Needs answers of both kinds."""
-    x = answers.x
+    x, hits, side = answers.x, answers.counted, answers.side
+    catch = float(answers.catch.sum()), len(answers.catch)
+    if protocol.file.task != "yes_no":  # a catch trial is one of another level: nothing makes it clear to everybody
+        catch = 0.0, 0
+        x, hits, side = np.vstack([np.column_stack([x, hits, side]), answers.caught]).T
     if protocol.in_newtons:  # hundreds of different numbers take long: each becomes the mean of those near it
         step = (max(protocol.levels) - min(protocol.levels)) / 40
         _, group = np.unique(np.round(x / step), return_inverse=True)
         x = (np.bincount(group, x) / np.bincount(group))[group]
-    catch = float(np.nansum(answers.catch)), len(answers.catch)
-    return posterior(protocol.shape, protocol.levels, x, answers.counted, answers.side, catch)
+    return posterior(protocol.shape, protocol.levels, x, hits, side, catch)
 
 
 def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, object]]) -> Person:

@@ -147,6 +147,11 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
             yield Problem("stimulus.reference", reference, "must lie between the levels for adjustment")
         if file.trials.catch_level is not None and float(file.trials.catch_level) == reference:
             yield Problem("trials.catch_level", reference, "is the reference, at which no answer is right")
+        elif file.trials.catch_level is not None and one_sided:
+            catch_level = float(file.trials.catch_level)
+            if (catch_level > reference) != (max(levels) > reference):
+                reason = f"must lie on that side of the reference, {reference:g}, where the levels are"
+                yield Problem("trials.catch_level", catch_level, reason)
         if not one_sided and (file.method == "staircase" or file.task == "three_intervals"):
             reason = f"must lie at an end of the levels for {file.method} with {file.task}, which score right answers"
             yield Problem("stimulus.reference", reference, reason)

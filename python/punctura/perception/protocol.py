@@ -52,7 +52,7 @@ class TrialsTable(Table):
     blocks: WholeNumber = 1
     practice: WholeNumber = 0  # before the first block, at the easiest level; not analysed
     catch: WholeNumber = 0  # in each block, at catch_level
-    catch_level: Number | None = None  # yes_no: without what is asked for; otherwise so clear that nobody errs
+    catch_level: Number | None = None  # yes_no: without what is asked for; otherwise clearer than the levels
     up: WholeNumber = 3  # steps of a staircase after a wrong answer
     down: WholeNumber = 1  # and after a right one: it stays where up/(up + down) of the answers are right
     break_s: Number | None = None  # after each block

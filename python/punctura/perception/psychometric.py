@@ -122,8 +122,8 @@ class Grid:
         return self._lapsed(np.repeat(core, n, axis=1))
 
     def caught(self) -> Array:
-        """The probability of a yes without what is asked for, or of a right answer that nobody can miss: (cells,)."""
-        return self._lapsed(self.floor if self.shape.rest == "floor" else np.ones(1))
+        """The probability of a yes without what is asked for: (cells,)."""
+        return self._lapsed(self.floor)
 
     def _lapsed(self, core: Array) -> Array:
         found: Array = (1 - self.lapse) * core + self.lapse * self.shape.guess
@@ -160,7 +160,7 @@ def posterior(
 ) -> Belief:  # fmt: skip
     """The belief after trials. levels: all that could be shown. shown, counted, sides (n,): of each trial.
 
-    catch: counted answers of the catch trials, and their number.
+    catch: how often "yes" was answered without what is asked for, and the number of these trials.
     """
     trials = np.column_stack(np.broadcast_arrays(np.asarray(shown, np.float64), sides))
     cells, each = np.unique(trials, axis=0, return_inverse=True)

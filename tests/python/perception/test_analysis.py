@@ -219,14 +219,38 @@ def test_answers_that_change_at_once_give_a_jnd_no_lower_bound(senses: dict[str,
     )
 
 
-def test_catch_trials_are_in_the_fit() -> None:
-    """They tell false alarms and lapses, which the levels hardly do."""
+def test_false_alarms_of_catch_trials_are_in_the_fit() -> None:
     shown, hits = np.repeat([1.0, 2.0, 3.0, 4.0], 20), np.tile([1, 1, 0, 1], 20)
-    for shape, caught, truth in ((Shape(0.5, rest="floor"), (40, 100), 0.4), (Shape(0.5), (90, 100), 0.2)):
-        belief = posterior(shape, [1.0, 4.0], shown, hits, catch=caught)
-        values = belief.grid.floor if shape.rest else belief.grid.lapse
-        low, high = belief.quantiles(values, (0.025, 0.975))
-        assert low < truth < high < low + 0.25
+    belief = posterior(Shape(0.5, rest="floor"), [1.0, 4.0], shown, hits, catch=(40, 100))
+    low, high = belief.quantiles(belief.grid.floor, (0.025, 0.975))
+    assert low < 0.4 < high < low + 0.25
+
+
+@pytest.mark.parametrize("name", ["right", "compares"])
+def test_a_catch_trial_is_an_answer_at_its_level(senses: dict[str, Senses], name: str) -> None:
+    """At a level that is told in 84 % of the trials, its errors are no lapses; at a clear level they are."""
+    protocol, reference = senses[name].protocol, 0.41
+    truth = 0.2 if name == "right" else 0.1
+
+    def told(level: float) -> float:
+        away = (level - reference) / truth
+        return float(1 - 0.5 ** (1 + away**1.5) if name == "right" else ndtr(away * 0.67449))
+
+    def cells(kind: str, level: float, share: float, count: int) -> list[dict[str, object]]:
+        return [
+            line | {"level": level}
+            for position, answer in enumerate(protocol.answers)
+            for line in answered({(kind, position, answer): (round(share * count / 2), count // 2)})
+        ]
+
+    session = [line for level in protocol.levels for line in cells("trial", level, told(level), 400)]
+    doubtful = reference + truth * (1.4 if name == "right" else 1.474)  # told in 84 %
+    assert told(doubtful) == pytest.approx(0.84, abs=0.005)
+    for level, share, lapse in ((doubtful, told(doubtful), (0.0, 0.06)), (reference + 10 * truth, 0.9, (0.12, 0.25))):
+        found = person(protocol, "", session + cells("catch", level, share, 400))
+        assert found.jnd is not None and found.lapse is not None and lapse[0] < found.lapse.value < lapse[1]
+        if level == doubtful:
+            assert found.jnd.value == pytest.approx(truth, rel=0.06)
 
 
 def test_the_slope_of_ratings(tmp_path: Path) -> None:

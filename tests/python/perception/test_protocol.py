@@ -47,6 +47,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (COMPARES, "levels = [0.2,", "levels = [nan,", "stimulus.levels", "larger than the one before"),
         (YES, "levels = [0.0005,", "levels = [-0.0005,", "stimulus.levels[0]", "must be"),
         (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
+        (RIGHT, "[trials]", "[trials]\ncatch = 9\ncatch_level = 0.2", "trials.catch_level", "where the levels are"),
         (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
         (ADJUST, "reference = 0.41", "reference = 0.1", "stimulus.reference", "between the levels"),
         (ADJUST, 'task = "adjustment"', 'task = "two_intervals"', "method", "both be adjustment"),
