@@ -31,7 +31,7 @@ def leaning():
 
 def sliding():
     columns = straight()
-    return columns | {"tip": columns["tip"] + np.clip(columns["time"] - 1, 0, 1.1e-3)[:, None] * [0, 0, 1]}
+    return columns | {"tip": columns["tip"] + np.clip(columns["time"] - 0.8, 0, 0.5)[:, None] * [0, 0, 10e-3]}
 
 
 def waiting(seconds):
