@@ -14,7 +14,7 @@ from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.motion import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
-from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, TargetSpace
+from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, Moment, TargetSpace, contacts
 from punctura.exercise.yields import YieldMeasures
 from punctura.live.force_words import CUTS, LIMIT_WORDS
 
@@ -70,7 +70,7 @@ class Measures:
         if len(ticks) == 0:
             return
         self._count(ticks)
-        touches = [event for event in events if event.what == "touch" and event.membrane == 0]
+        touches = contacts(events)
         self.entries += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
@@ -121,12 +121,12 @@ class Measures:
         seconds = self._windows.get(pop.membrane, OVERSHOOT_S)
         return Overshoot(membrane=pop.membrane, name=pop.name, time=pop.time, distance=0.0, seconds=seconds)
 
-    def _follow(self, ticks: JudgedTicks, touches: list[Event], arrived: int | None) -> None:
+    def _follow(self, ticks: JudgedTicks, touches: list[Moment], arrived: int | None) -> None:
         """Follows the path from the last entry to the first arrival in the space."""
         if self._way is not None:
             return
         end = len(ticks) if arrived is None else arrived + 1
-        cuts = [int(row) for row in np.searchsorted(ticks.tick, [event.tick for event in touches])]
+        cuts = [int(row) for row in np.searchsorted(ticks.tick, [touch.tick for touch in touches])]
         edges = [0, *[min(cut, end) for cut in cuts], end]
         for k, (start, stop) in enumerate(itertools.pairwise(edges)):
             if k and cuts[k - 1] < end:

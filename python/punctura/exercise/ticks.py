@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from punctura import Scene
 from punctura._core import ServoState, grazing_cosine, tip_length
+from punctura.events import Event
 from punctura.ticks import ABSENT, COMMAND_SCENE, INSIDE, Columns
 
 Numbers = NDArray[np.float64]
@@ -219,6 +220,11 @@ def first_of(ticks: JudgedTicks, flags: Flags) -> Moment | None:
 def by(when: Moment | None, until: Moment | None) -> bool:
     """Whether `when` exists and is not after `until`."""
     return when is not None and (until is None or when.tick <= until.tick)
+
+
+def contacts(events: list[Event]) -> list[Moment]:
+    """The touches of the first membrane."""
+    return [Moment(event.tick, event.time) for event in events if event.what == "touch" and event.membrane == 0]
 
 
 @dataclass(frozen=True)

@@ -119,6 +119,15 @@ class LimitJudge(Judge):
         self._seen_at = float(max(before[-1], times[-1]))
 
 
+class BegunJudge(LimitJudge):
+    """A limit that is measured from a moment of the attempt on, such as the first contact."""
+
+    began: Moment | None = None
+
+    def measured(self, until: Moment | None) -> bool:
+        return by(self.began, until) and super().measured(until)
+
+
 class WindowJudge(LimitJudge):
     """A limit that is measured in a window of time. It is met at the end of the first window."""
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from punctura.events import Event
 from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
-from punctura.exercise.goals.goal import Course, Goal, LimitJudge, SoFar
+from punctura.exercise.goals.goal import BegunJudge, Course, Goal, LimitJudge, SoFar
 from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
 from punctura.exercise.quantities import degrees, speed
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import STEADILY, Seen, off_angle
-from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, Numbers, TargetSpace, by, first_of
+from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, Numbers, TargetSpace, contacts, first_of
 
 ROUNDING_RAD = 1e-9
 UPRIGHT_RAD = math.radians(3)  # a needle that leans less has no heading
@@ -40,7 +40,7 @@ class EntryAngle(Goal):
         return self.angle_deg
 
 
-class AngleJudge(LimitJudge):
+class AngleJudge(BegunJudge):
     """Judges each entry into the first membrane."""
 
     def __init__(self, goal: EntryAngle, asked_deg: float, course: Course) -> None:
@@ -51,7 +51,6 @@ class AngleJudge(LimitJudge):
         self.asked_deg, self.within_deg, self.turned_at_most_deg = asked_deg, goal.within_deg, most
         self.entered: float | None = None  # rad, of the first wrong entry
         self.turned: float | None = None  # rad from the start's heading, of the first entry that is turned too far
-        self._first: Moment | None = None
         normal = np.asarray(first.inward_normal, np.float64)
         self._normal, self._heading = normal / np.linalg.norm(normal), np.asarray(course.start.heading, np.float64)
 
@@ -63,12 +62,9 @@ class AngleJudge(LimitJudge):
         return math.atan2(float(np.linalg.norm(np.cross(asked, along))), float(asked @ along))
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        for event in events:
-            if event.what != "touch" or event.membrane != 0:
-                continue
-            when = Moment(event.tick, event.time)
-            self._first = self._first or when
-            row = np.searchsorted(ticks.tick, event.tick)
+        for when in contacts(events):
+            self.began = self.began or when
+            row = np.searchsorted(ticks.tick, when.tick)
             angle, turned = float(ticks.angle[row]), self._turned(ticks.held[row])
             if not math.isfinite(angle):
                 self.unseen = self.unseen or when
@@ -78,9 +74,6 @@ class AngleJudge(LimitJudge):
                 self.entered, self.missed = angle, when
             elif self.turned_at_most_deg and turned > math.radians(self.turned_at_most_deg) + ROUNDING_RAD:
                 self.turned, self.missed = turned, when
-
-    def measured(self, until: Moment | None) -> bool:
-        return by(self._first, until) and super().measured(until)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         if self.turned is not None:
@@ -220,23 +213,17 @@ class TimeLimit(Goal):
         return TimeJudge(self)
 
 
-class TimeJudge(LimitJudge):
+class TimeJudge(BegunJudge):
     """Uses the ticks' own times, so lost ticks do not stop the time."""
 
     def __init__(self, goal: TimeLimit) -> None:
         super().__init__(goal.text or f"Finish within {goal.seconds:g} s of the first contact")
         self.time_limit: float = goal.seconds
-        self._began: Moment | None = None
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        if self._began is None:
-            touches = (Moment(e.tick, e.time) for e in events if e.what == "touch" and e.membrane == 0)
-            self._began = next(touches, None)
-        if self._began is not None:
-            self._miss(ticks, ticks.time - self._began.time > self.time_limit)
-
-    def measured(self, until: Moment | None) -> bool:
-        return self._began is not None and (until is None or self._began.tick <= until.tick)
+        self.began = self.began or next(iter(contacts(events)), None)
+        if self.began is not None:
+            self._miss(ticks, ticks.time - self.began.time > self.time_limit)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"The time ran out {self.time_limit:g} s after the first contact."

@@ -14,11 +14,11 @@ from punctura._core import grazing_cosine
 from punctura.errors import Problem
 from punctura.events import Event
 from punctura.exercise.fields import Distance, Vector, asked, no_direction
-from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar
+from punctura.exercise.goals.goal import BegunJudge, Course, Given, Goal, SoFar
 from punctura.exercise.quantities import mm, tenths
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import Seen
-from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace, by, first_of
+from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace, contacts, first_of
 
 
 def across(scene: Scene, along: list[float]) -> NDArray[np.float64]:
@@ -57,7 +57,7 @@ class OnLine(Goal):
             yield Problem("along", along, "must not be parallel to the first membrane's normal")
 
 
-class LineJudge(LimitJudge):
+class LineJudge(BegunJudge):
     """Uses the position of the tip in the ticks in which the point is in the space."""
 
     def __init__(self, goal: OnLine, scene: Scene) -> None:
@@ -68,7 +68,6 @@ class LineJudge(LimitJudge):
         self._point, self._across = np.asarray(goal.point_mm) * 1e-3, across(scene, goal.along)
         self.aim: float | None = None  # m to the side, where the needle points at the line's depth in the last tick
         self._normal = np.asarray(scene.membranes[0].inward_normal) / np.linalg.norm(scene.membranes[0].inward_normal)
-        self._first: Moment | None = None
 
     @property
     def way(self) -> str:
@@ -90,15 +89,12 @@ class LineJudge(LimitJudge):
         here = ticks.in_space[:, 0] & np.isfinite(aside)
         if self.missed is not None or not here.any():
             return
-        if self._first is None:
-            self._first, self._entered = first_of(ticks, here), float(aside[here.argmax()])
+        if self.began is None:
+            self.began, self._entered = first_of(ticks, here), float(aside[here.argmax()])
         off = here & (aside > self.within)
         self._miss(ticks, off)
         until = here & (np.arange(len(ticks)) <= (int(off.argmax()) if off.any() else len(ticks)))
         self.farthest = max(self.farthest or 0.0, float(aside[until].max()))
-
-    def measured(self, until: Moment | None) -> bool:
-        return by(self._first, until) and super().measured(until)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         if self._entered > self.within:
@@ -146,35 +142,30 @@ class Straight(Goal):
         return StraightJudge(self)
 
 
-class StraightJudge(LimitJudge):
+class StraightJudge(BegunJudge):
     """Judges each way in the tissue: its line is the needle's as it touches the first membrane."""
 
     def __init__(self, goal: Straight) -> None:
         super().__init__(goal.text or f"Stay within {goal.within_mm:g} mm of the line of entry")
         self.within = goal.within_mm * 1e-3
         self._entry: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # point, m, and direction
-        self._first: Moment | None = None
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        touches = [event for event in events if event.what == "touch" and event.membrane == 0]
-        if touches and self._first is None:
-            self._first = Moment(touches[0].tick, touches[0].time)
+        touches = contacts(events)
+        self.began = self.began or next(iter(touches), None)
         aside = np.zeros(len(ticks))
-        cuts = [int(row) for row in np.searchsorted(ticks.tick, [event.tick for event in touches])]
+        cuts = [int(row) for row in np.searchsorted(ticks.tick, [touch.tick for touch in touches])]
         for k, (start, stop) in enumerate(pairwise([0, *cuts, len(ticks)])):
             if k:
                 self._entry = ticks.tip[start], ticks.held[start]
                 if not np.isfinite(ticks.angle[start]):  # then `held` is only the first membrane's normal
-                    self.unseen = self.unseen or Moment(touches[k - 1].tick, touches[k - 1].time)
+                    self.unseen = self.unseen or touches[k - 1]
             if self._entry is not None:
                 offset = ticks.tip[start:stop] - self._entry[0]
                 aside[start:stop] = np.linalg.norm(np.cross(offset, self._entry[1]), axis=1)
         self._watch(ticks, np.isfinite(aside))
         if self.unseen is None:
             self._miss(ticks, ticks.inside.any(axis=1) & (aside > self.within))
-
-    def measured(self, until: Moment | None) -> bool:
-        return by(self._first, until) and super().measured(until)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"The tip went more than {mm(self.within)} to the side of its line of entry."

@@ -17,7 +17,17 @@ from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar,
 from punctura.exercise.quantities import mm, speed, tenths, times
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import FIRM_STOP, NEAR_STOP, REACTION_S, Seen
-from punctura.exercise.ticks import GONE_S, ROUNDING, Flags, JudgedTicks, Moment, TargetSpace, first_of, place_of
+from punctura.exercise.ticks import (
+    GONE_S,
+    ROUNDING,
+    Flags,
+    JudgedTicks,
+    Moment,
+    TargetSpace,
+    contacts,
+    first_of,
+    place_of,
+)
 
 # For a stylus, a mouse, keys and fingers alike.
 SMALL_STEPS = "go on in small steps when the resistance grows"
@@ -251,11 +261,10 @@ class EntriesJudge(LimitJudge):
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.depth[:, 0]))
-        for event in events:
-            if event.what == "touch" and event.membrane == 0:
-                self._count += 1
-                if self._count > self.at_most and self.missed is None:
-                    self.missed = Moment(event.tick, event.time)
+        for when in contacts(events):
+            self._count += 1
+            if self._count > self.at_most and self.missed is None:
+                self.missed = when
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"You entered more than {self.at_most} time{'s' * (self.at_most > 1)}."
