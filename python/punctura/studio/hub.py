@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from punctura.studio.hand import Pose
-from punctura.studio.limits import MOST_JOINED, MOST_MESSAGES, MOST_ON_WAY, MOST_TICKS, MOST_VIEWERS, UNREAD_S
+from punctura.studio.limits import MOST_JOINED, MOST_MESSAGES, MOST_ON_WAY, MOST_TICK_BYTES, MOST_VIEWERS, UNREAD_S
 from punctura.studio.wire.frames import SEVERAL, joined
 from punctura.studio.wire.messages import Control, HandPose, Status
 
@@ -60,7 +60,7 @@ class Viewer:
         if self.closed:
             return
         if isinstance(data, bytes):
-            if self._ticks + len(data) > MOST_TICKS:
+            if self._ticks + len(data) > MOST_TICK_BYTES:
                 self._drop_frames()
             self._ticks += len(data)
         else:

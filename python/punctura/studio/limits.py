@@ -23,7 +23,7 @@ REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 
 # Counts.
 MOST_VIEWERS = 32  # pages
-MOST_TICKS = 16_000_000  # bytes of ticks that wait for one page; then all are dropped, which leaves one gap
+MOST_TICK_BYTES = 16_000_000  # that wait for one page; then all are dropped, which leaves one gap
 MOST_JOINED = 1_000_000  # bytes of ticks in one message; a longer one would take too long on a slow link
 MOST_ON_WAY = 2  # messages with ticks to a page that says when it has taken one
 MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed

@@ -21,7 +21,7 @@ from punctura.studio.wire.messages import (
 from punctura.studio.wire.messages import Status as Health
 
 FRAME = b"PNT2" + bytes(999_996)
-MOST = hubs.MOST_TICKS // len(FRAME)  # such frames that wait
+MOST = hubs.MOST_TICK_BYTES // len(FRAME)  # such frames that wait
 
 
 def hello(viewer):
