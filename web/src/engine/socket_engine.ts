@@ -157,15 +157,18 @@ export class SocketEngine implements Engine {
   /** Takes a message with ticks, and asks for the next: a page that is late gets more frames in one message. */
   private takeTicks(data: ArrayBuffer): void {
     try {
-      let batches: TickBatch[] = [];
-      try {
-        batches = framesOf(data).map((frame) => decodeTicks(frame));
-      } catch (error) {
-        this.complain(error instanceof Error ? error.message : String(error));
-      }
-      for (const batch of batches) this.listener?.ticks(batch);
+      for (const batch of this.decoded(data)) this.listener?.ticks(batch);
     } finally {
       if (this.socket?.readyState === 1) this.socket.send(TOOK);
+    }
+  }
+
+  private decoded(data: ArrayBuffer): TickBatch[] {
+    try {
+      return framesOf(data).map((frame) => decodeTicks(frame));
+    } catch (error) {
+      this.complain(error instanceof Error ? error.message : String(error));
+      return [];
     }
   }
 
