@@ -258,3 +258,9 @@ def test_a_system_without_a_package_of_chromium_gets_the_others_and_is_told_what
     assert set(installed[2:]) == {*HEADERS.split(), *browser.split()[:1]}
     assert ("tests -m pytest" in done.stdout) == bool(browser)
     assert ("note: the page was NOT tested" in done.stdout) == (not browser)
+
+
+@pytest.mark.parametrize("script", ["tools/format.sh", "docs/build"])
+def test_a_word_for_a_script_that_takes_none_shows_its_usage_and_sets_nothing_up(script: str) -> None:
+    done = subprocess.run([ROOT / script, "--help"], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith(("Formats", "Sets up"))
