@@ -15,6 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from punctura import PuncturaError
+from punctura.errors import NoSuchFileError
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.record.new_file import lock
 
@@ -24,6 +25,10 @@ MARK = b"punctura.study"  # in the schema of each file: the digest of the plan w
 
 class StudyError(PuncturaError):
     """A study cannot be run or replayed; the text says why and what to do."""
+
+
+class NoSuchRowError(StudyError, NoSuchFileError):
+    """The plan has no row of this number."""
 
 
 class StudyWarning(UserWarning):

@@ -11,7 +11,7 @@ from punctura.record import Recorder, RecordingError, open_recording
 from punctura.results import JsonObject
 from punctura.scene.build import save_scene
 from punctura.study.design import design, row_schema, run_trials
-from punctura.study.folder import MARK, Folder, StudyError
+from punctura.study.folder import MARK, Folder, NoSuchRowError, StudyError
 from punctura.study.plan import Plan
 
 
@@ -23,7 +23,7 @@ def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path,
     """
     trials = design(plan)
     if not 0 <= row < len(trials.seeds):
-        raise StudyError(f"{plan.path}: there is no row {row}; the rows are 0 to {len(trials.seeds) - 1}")
+        raise NoSuchRowError(f"{plan.path}: there is no row {row}; the rows are 0 to {len(trials.seeds) - 1}")
     result = run_trials(plan, trials.part(row, row + 1), row, threads=1, duration=0.0)
     scene, experiment = result.scene(0), result.experiment(0)
     duration = plan.duration or experiment.duration

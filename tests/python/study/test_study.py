@@ -228,7 +228,7 @@ def test_a_link_named_lock_creates_no_file_elsewhere(tmp_path: Path) -> None:
     assert not elsewhere.exists()
 
 
-def test_a_row_again_is_the_row(tmp_path: Path) -> None:
+def test_a_row_again_is_the_row(tmp_path: Path, punctura) -> None:
     plan = load_plan(written(tmp_path, GRID))
     run_study(plan, tmp_path / "out")
     table = pq.read_table(tmp_path / "out" / "trials.parquet")
@@ -238,6 +238,7 @@ def test_a_row_again_is_the_row(tmp_path: Path) -> None:
     assert np.linalg.norm(ticks.model_force, axis=1).max() == table["peak"][3].as_py()
     with pytest.raises(StudyError, match="no row 6"):
         replay_row(plan, 6, tmp_path / "out")
+    assert punctura("study", plan.path, "--replay", "6").status == 2
 
 
 def test_the_command_writes_sobol_indices(tmp_path: Path, punctura) -> None:
