@@ -9,7 +9,7 @@ import os
 import select
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -77,16 +77,18 @@ def run_headless(wishes: Wishes, record: Path | None, as_json: bool) -> None:
         notice(f"note: {note}")
 
     limits = wishes.limits
+    shown: list[str] = []
 
     def begin(loop: ServoLoop) -> Callable[[], None]:
         notice(begun(loaded.name, loop, opened, thumb))
-        for note in [*limits.notes(loop, thumb), *run_notes(loop)]:
+        shown.extend([*limits.notes(loop, thumb), *run_notes(loop)])
+        for note in shown:
             notice(f"note: {note}")
         return tape.begin(loop)
 
     def report(summary: RunSummary, print_result: Callable[[str], None]) -> None:
         record = asdict(summary) | ({"recording": asdict(tape.status)} if tape.status else {})
-        print_result(json.dumps(record, indent=2, default=os.fspath) if as_json else in_words(summary))
+        print_result(json.dumps(record, indent=2, default=os.fspath) if as_json else in_words(summary, shown))
         if not summary.force_was_on and summary.ticks > 0:
             button = "the dead-man button was never held, or " if wishes.limits.gate.get("dead_man") else ""
             notice(f"note: there was no force at any time: {button}the tip was never in front of all membranes")
@@ -193,8 +195,8 @@ def begun(scene: str, loop: ServoLoop, device: Device, thumb: ThumbLoop | None =
     return f"{scene} on {device.info.model}, {strong}{scale}{second}; Ctrl-C ends it"
 
 
-def in_words(summary: RunSummary) -> str:
-    """The summary for a person."""
+def in_words(summary: RunSummary, shown: Collection[str] = ()) -> str:
+    """The summary for a person, without the statements that have been shown already."""
     lines = [
         f"{summary.scene} on {summary.device}",
         f"  {summary.ticks} ticks at {summary.rate_hz:g} Hz, {summary.late} late, {summary.lost} lost; "
@@ -210,7 +212,7 @@ def in_words(summary: RunSummary) -> str:
         )
     for name, depth in zip(summary.membranes, summary.deepest_m, strict=True):
         lines.append(f"  {name}: {depth * 1e3:.3g} mm deep" if depth > 0 else f"  {name}: not reached")
-    return "\n".join(lines + [f"  {text}" for text in summary.statements])
+    return "\n".join(lines + [f"  {text}" for text in summary.statements if text not in shown])
 
 
 EVERY_S = 0.1
