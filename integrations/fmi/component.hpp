@@ -30,7 +30,11 @@ struct Component {
 /// Gives `made` an instance of the FMU in a folder. Returns nullptr, after a report, if `refused` or the scene say why.
 template <typename Made>
 void* instantiate(std::unique_ptr<Made> made, const std::string& resources, std::string refused) {
-  if (refused.empty()) made->instance = Instance::make(resources, refused);
+  try {
+    if (refused.empty()) made->instance = Instance::make(resources, refused);
+  } catch (const std::exception& e) {  // on Windows also of a folder that is not UTF-8
+    refused = e.what();
+  }
   if (made->instance) return static_cast<Component*>(made.release());
   made->log(refused.c_str());
   return nullptr;

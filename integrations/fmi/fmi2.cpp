@@ -1,4 +1,5 @@
 // The functions of FMI 2.0 for co-simulation, and what they need of its types. https://fmi-standard.org, version 2.0.4
+#include <charconv>
 #include <limits>
 
 #include "component.hpp"
@@ -24,7 +25,7 @@ struct Component2 final : Component {
   void* environment = nullptr;
 };
 
-/// The folder of "file:///path" or "file:/path", with %20 for a space.
+/// The folder of "file:///path" or "file:/path", with %20 for a space. Another % is itself.
 std::string folder_of(const char* uri) {
   std::string text = uri ? uri : "";
   if (text.rfind("file://", 0) == 0)
@@ -33,8 +34,10 @@ std::string folder_of(const char* uri) {
     text.erase(0, 5);
   std::string path;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size()) {
-      path += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+    unsigned char byte = 0;
+    const char* const digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      path += static_cast<char>(byte);
       i += 2;
     } else {
       path += text[i];

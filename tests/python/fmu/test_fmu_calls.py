@@ -43,6 +43,12 @@ def test_each_call_is_allowed_in_its_states_only(tmp_path, version, state, name)
         assert needle.log == [f"fmi3{name} was called {state}; it is allowed only {' or '.join(allowed)}"]
 
 
+def test_a_percent_sign_in_the_name_of_a_folder_begins_a_code_only_before_two_digits(tmp_path, monkeypatch):
+    monkeypatch.setattr(Slave, "made", {})
+    (tmp_path / "5 % wet").mkdir()
+    Slave(tmp_path / "5 % wet", 2).started()
+
+
 @both
 def test_an_end_of_the_initialization_in_mid_run_does_not_reset_the_needle(tmp_path, version):
     needle, other = Slave(tmp_path, version).started(), Slave(tmp_path, version).started()
