@@ -1,7 +1,7 @@
 # The steps of ./test, each a function step_NAME. A step fails by its exit status. All chosen steps run, then a
 # summary is printed.
 
-all_steps="tree format types web cpp asan tsan consumer examples instructions python docs page"
+all_steps="tree format types web cpp asan tsan consumer examples instructions docs page python"
 fast_steps="tree format types web cpp python"
 named_steps="tidy statistics integrations"  # they run only by name
 
@@ -25,8 +25,10 @@ choose_steps() {
   esac
 }
 
-# Each of these steps uses about one processor, so all of them start at once.
-at_once="tree format types web"
+# Steps that run side by side: each string is a row of steps, one after another. What compiles and computes goes beside
+# what waits for clocks, pages and processes. A row has its steps in the order of all_steps. Those that build/dev is for
+# are in one row, because two builds of one folder disturb each other.
+rows=(tree format types web "cpp asan tsan consumer examples instructions docs" "page python" "$named_steps")
 
 # Groups of processes that run in the background; they end with this program, however it ends.
 groups=""
@@ -36,30 +38,31 @@ end_groups() {
 }
 
 run_steps() {
-  local name passed=0 failed="" count=0 began=$SECONDS log code seconds group started=""
+  local name row passed=0 failed="" count=0 began=$SECONDS log code seconds processor group started=""
   cd "$root"
+  for name in $steps; do rm -f "build/log/test-$name.log.result"; done
   trap end_groups EXIT
   trap 'printf "\nStopped.\n" >&8; exit 130' INT TERM HUP
   set -m  # each in a process group of its own, because a background job does not get Ctrl-C
-  for name in $steps; do
-    case " $at_once " in *" $name "*) run_step "$name" & groups="$groups $!" started="$started $name:$!" ;; esac
+  for row in "${rows[@]}"; do
+    row=$(chosen_of $row)
+    [ -n "$row" ] || continue
+    run_row $row &
+    groups="$groups $!"
+    disown  # so that bash does not print that it has ended
+    for name in $row; do started="$started $name:$!"; done
   done
   set +m
   for name in $steps; do
     log=build/log/test-$name.log
+    group=${started##* $name:} group=${group%% *}
     printf '  %-12s ' "$name"
-    case " $started" in
-      *" $name:"*)
-        group=${started##* $name:} group=${group%% *}
-        wait "$group" || true
-        groups=${groups/ $group/}  # its number may soon be another group's
-        ;;
-      *) run_step "$name" || true ;;
-    esac
-    { read -r code seconds <"$log.result"; } 2>/dev/null || { code=137 seconds=0; }  # the step was killed
+    while [ ! -s "$log.result" ] && kill -0 "$group" 2>/dev/null; do sleep 0.2; done
+    kill -0 "$group" 2>/dev/null || groups=${groups/ $group/}  # its number may soon be another group's
+    { read -r code seconds processor <"$log.result"; } 2>/dev/null || code=137 seconds=0 processor=0  # it was killed
     if [ "$code" -eq 0 ]; then
       passed=$((passed + 1))
-      printf 'passed %4d s   %s\n' "$seconds" "$(closing_line "$log")"
+      printf 'passed %4d s, %4d s of a processor   %s\n' "$seconds" "$processor" "$(closing_line "$log")"
       sed -n 's/^note: /               /p' "$log"
     else
       failed="$failed $name" count=$((count + 1))
@@ -72,12 +75,24 @@ run_steps() {
   [ -z "$failed" ]
 }
 
-# run_step NAME: runs the step with its output in its log, and writes its exit status and time (s) beside it.
+# chosen_of STEP...: those of them that are to run.
+chosen_of() {
+  local name
+  for name in "$@"; do case " $(echo $steps) " in *" $name "*) printf '%s ' "$name" ;; esac; done
+}
+
+run_row() {
+  local name
+  for name in "$@"; do run_step "$name"; done
+}
+
+# run_step NAME: runs the step with its output in its log, and writes its exit status, its time (s) and that of its
+# processors (s) beside it.
 run_step() {
-  local log=build/log/test-$1.log start=$SECONDS code=0
-  rm -f "$log.result"
-  ("step_$1") >"$log" 2>&1 </dev/null || code=$?
-  echo "$code $((SECONDS - start))" >"$log.result"
+  local log=build/log/test-$1.log start=$SECONDS code=0 TIMEFORMAT='%U %S' user system
+  { time { ("step_$1") >"$log" 2>&1 </dev/null || code=$?; }; } 2>"$log.time"
+  read -r user system < <(tail -n 1 "$log.time")
+  echo "$code $((SECONDS - start)) $((${user%%[.,]*} + ${system%%[.,]*}))" >"$log.result"
 }
 
 # The last line of the step's test runner with the number of passed tests.
@@ -106,14 +121,14 @@ step_format() {
 }
 step_types() { mypy; }
 
-# compile PRESET [TARGET...]: configures if needed, then builds on all cores. A build folder of another path is
-# configured afresh.
+# compile PRESET [TARGET...]: configures if needed, then builds on all cores, with less weight than the browser that is
+# tested meanwhile. A build folder of another path is configured afresh.
 compile() {
   local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
   shift
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
   cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF ${definition:-} &&
-    cmake --build --preset "$preset" ${1:+--target "$@"}
+    nice -n 5 cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
