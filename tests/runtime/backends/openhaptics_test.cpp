@@ -69,7 +69,7 @@ TEST_CASE("each state of the back-end has a message") {
     s.null_opens = 0;
   });
   CHECK(none.state == BackendState::no_device);
-  CHECK(says(none.detail, "\"Default PHANToM\""));
+  CHECK(says(none.detail, "The default device, \"Default Device\", \"Default PHANToM\" gave BAD_HANDLE"));
 
   const auto used = hd_status([](auto& s) { s.init_error = 0x301; });
   CHECK(used.state == BackendState::in_use);

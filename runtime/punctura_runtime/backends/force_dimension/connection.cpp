@@ -73,7 +73,7 @@ int count(const Api& api) {
     throw Refusal(
         State::no_device,
         "No Force Dimension device and no Falcon was found. Check power and USB cable; on Linux, also that a udev rule "
-        "lets you use it (docs/devices.md).");
+        "lets you use it (docs/devices-force-dimension.md).");
   if (api.available_count() == 0) {
     const std::lock_guard lock(ours().mutex);
     throw Refusal(State::in_use, ours().ids.empty() ? "Another program has the device open: close that first."
@@ -88,7 +88,7 @@ std::string words_for(const Api& api, int error) {
   switch (static_cast<ApiError>(error)) {
     case ApiError::communication: return "the connection to the device is gone: check its USB cable and power";
     case ApiError::no_driver:
-      return "its USB driver is missing, or you may not use it: see docs/devices.md for the udev rule";
+      return "its USB driver is missing, or you may not use it: see docs/devices-force-dimension.md for the udev rule";
     case ApiError::no_device: return "no such device: check power and USB cable";
     case ApiError::timeout: return "the device did not answer in time";
     case ApiError::not_ready: return "the device is not ready: switch it off and on, and calibrate it";

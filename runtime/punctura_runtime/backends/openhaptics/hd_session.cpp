@@ -91,7 +91,7 @@ void Session::open(const std::string& wish) {
   std::string tried;
   State state = State::no_device;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string shown = first[i] ? "\"" + std::string(first[i]) + "\"" : "the default device";
+    const std::string shown = first[i] ? "\"" + std::string(first[i]) + "\"" : "The default device";
     handle_ = hd_.init_device(first[i]);
     ErrorInfo error = take_errors(hd_);
     if (handle_ != no_device && error.code == success) {
@@ -102,7 +102,9 @@ void Session::open(const std::string& wish) {
     if (handle_ != no_device) hd_.disable_device(handle_);
     take_errors(hd_);
     if (error.code == success) error.code = bad_handle;
-    tried += " " + shown + " gave " + describe(error) + ".";
+    const std::string why = " gave " + describe(error) + ".";
+    if (tried.ends_with(why)) tried.replace(tried.size() - why.size(), why.size(), ",");  // one reason, given once
+    tried += " " + shown + why;
     if (const State now = state_of(error.code); now != State::no_device) {  // another name would not help
       state = now;
       break;
