@@ -101,10 +101,10 @@ closing_line() {
     -e '^Success: no issues|^tree: |^ *Tests +[0-9]+' "$1" | tail -n 1 | tr -s ' =' || true
 }
 
-# Checks the rules of the source tree: rooms, sizes, equations and numbers in text.
+# Checks the rules of the source tree: rooms, sizes, equations, numbers in text and standard headers.
 step_tree() {
   local check code=0
-  for check in rooms sizes equations locale; do python "tools/check_$check.py" || code=1; done
+  for check in rooms sizes equations locale includes; do python "tools/check_$check.py" || code=1; done
   return $code
 }
 

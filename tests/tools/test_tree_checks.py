@@ -38,11 +38,12 @@ def found_by(module: ModuleType, root: Path) -> list[str]:
     return [str(finding) for finding in module.findings(root)]
 
 
-@pytest.mark.parametrize("name", ["rooms", "sizes", "equations", "locale"])
+@pytest.mark.parametrize("name", ["rooms", "sizes", "equations", "locale", "includes"])
 def test_a_finding_is_printed_and_fails_the_command(check, name, tmp_path, capsys):
     module = check(name)
     root = plant(
-        tmp_path, core__punctura__model__a_dot_hpp='#include "punctura/servo/b.hpp"; atof("1")  // K06 (99)\n' * 400
+        tmp_path,
+        core__punctura__model__a_dot_hpp='#include "punctura/servo/b.hpp"; std::map atof("1")  // K06 (99)\n' * 400,
     )
     assert module.report(name, module.findings, ["check", str(root)]) == 1
     assert capsys.readouterr().out.endswith(" findings\n")
@@ -55,6 +56,22 @@ def test_a_number_that_follows_the_locale_is_found(check, tmp_path):
     assert found_by(check("locale"), root) == [
         f"capi/a.cpp:{n}: {what} follows the locale: use decimal.hpp" for n, what in places
     ]
+
+
+def test_a_standard_header_that_is_missing_is_found_and_one_that_our_headers_include_is_not(check, tmp_path):
+    root = plant(
+        tmp_path,
+        core__punctura__a_dot_hpp="#include <vector>\n#include <array>\n",
+        core__punctura__b_dot_hpp='#include "punctura/a.hpp"\nstd::vector<std::string> x;  // std::map\nstd::byte y;\n',
+        core__punctura__c_dot_cpp="std::map<int, int> x;\n",
+    )
+    assert found_by(check("includes"), root) == ["core/punctura/b.hpp:2: include <string>"]
+
+
+def test_every_header_that_is_precompiled_is_one_whose_names_are_known(check):
+    text = (TOOLS.parent / "cmake" / "precompiled.cmake").read_text(encoding="utf-8")
+    listed = text.split("PRIVATE\n")[1].split(" ${ARGN}")[0]
+    assert {name.strip("<>") for name in listed.split()} == set(check("includes").FOR)
 
 
 def test_an_include_of_a_lower_room_is_found(check, tmp_path):
