@@ -38,6 +38,26 @@ def about_speed(speeds: Speeds, force: Array) -> Finding:
     return Finding("depth_from_speed", text)
 
 
+def with_depth_between(held: dict[str, Array], found: list[Finding]) -> dict[str, Array]:
+    """Columns (n,) whose depth and force stand in different rows, as recorders of several sensors write them.
+
+    The depth is interpolated at the times of the force. Other columns stay as they are.
+    """
+    if not {"depth", "force", "time"} <= held.keys():
+        return held
+    timed = np.isfinite(held["time"])
+    depth, force = (timed & np.isfinite(held[role]) for role in ("depth", "force"))
+    if min(depth.sum(), force.sum()) < 5 or 2 * (depth & force).sum() >= min(depth.sum(), force.sum()):
+        return held
+    order = np.argsort(held["time"][depth], kind="stable")
+    times, depths = held["time"][depth][order], held["depth"][depth][order]
+    at = held["time"][force]
+    within = (at >= times[0]) & (at <= times[-1])
+    text = "depth and force stand in different rows; the depth is interpolated at the times of the force"
+    found.append(Finding("interpolated", text, True))
+    return {"depth": np.interp(at[within], times, depths), "force": held["force"][force][within], "time": at[within]}
+
+
 def with_depth_of(
     path: Path, held: Mapping[str, Array], reading: Reading, source: str
 ) -> tuple[dict[str, Array], list[Finding]]:

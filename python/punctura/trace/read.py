@@ -16,7 +16,7 @@ from punctura.record.columns import ticks_of
 from punctura.trace.columns import choose_columns
 from punctura.trace.decimals import Decimal
 from punctura.trace.findings import examine
-from punctura.trace.motion import Speeds, about_speed, depth_from, with_depth_of
+from punctura.trace.motion import Speeds, about_speed, depth_from, with_depth_between, with_depth_of
 from punctura.trace.reading import Order, Reading
 from punctura.trace.samples import no_reading
 from punctura.trace.table import Table, check_file, check_size
@@ -135,6 +135,7 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
             text += ", far outside all other values"
             found.append(Finding("no_reading", f"{text}: this is taken for no reading", True))
             held[role] = np.where(empty, np.nan, held[role])
+    held = with_depth_between(held, found)
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
         count = int((~good).sum())

@@ -56,7 +56,9 @@ def _suffix(path: Path) -> str:
     kind = next((kind for start, kind in _KINDS.items() if head.startswith(start)), "")
     if kind == ".xlsx" and not holds_workbook(path):
         kind = ""
-    return kind or path.suffix.lower()
+    ending = path.suffix.lower()
+    of_text = ending == ".xls" and bool(head) and not head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<")
+    return kind or (".txt" if of_text else ending)  # a table with tabs is often named so
 
 
 def _parquet(path: Path) -> Table:

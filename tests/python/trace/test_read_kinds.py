@@ -134,6 +134,15 @@ def test_a_stated_speed_gives_the_depth_and_a_turn_is_noticed(tmp_path):
         read_trace(tmp_path / "b.csv", speeds=[(0, speed)])
 
 
+def test_depth_and_force_in_different_rows_are_joined(tmp_path):
+    rows = [f"{t},{d},\n{t + 1e-3},,{f}" for t, d, f in ROWS]
+    (tmp_path / "a.csv").write_text("\n".join(["time_s,depth_mm,force_N", *rows]))
+    read = read_trace(tmp_path / "a.csv")
+    assert [one.kind for one in read.findings if one.severe] == [] and len(read) == len(ROWS) - 1
+    assert read.depth == pytest.approx(MADE.depth[:-1], abs=1e-4) and read.force == pytest.approx(MADE.force[:-1])
+    assert read.findings[0].kind == "interpolated"
+
+
 def test_depth_and_force_in_two_files_are_joined_on_their_clock(tmp_path):
     clock = 1_700_000_000
     (tmp_path / "f.csv").write_text("\n".join(["time_s,force_N", *(f"{clock + t:.3f},{f!r}" for t, _, f in ROWS)]))

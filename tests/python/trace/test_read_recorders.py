@@ -48,6 +48,16 @@ def test_a_tdms_file_has_units_and_a_time_of_its_own(tmp_path):
         read_trace(tmp_path / "c.tdms")
 
 
+def test_channels_of_other_rates_are_interpolated(tmp_path):
+    made = [("Weg", MADE.depth[::10] * 1e3, "mm", 10 * STEP), ("Kraft", MADE.force, "N", STEP)]
+    with TdmsWriter(tmp_path / "a.tdms") as writer:
+        for name, values, unit, step in made:
+            writer.write_segment([ChannelObject("1", name, values, {"unit_string": unit, "wf_increment": step})])
+    read = read_trace(tmp_path / "a.tdms")
+    assert np.ptp(read.time) == pytest.approx(np.ptp(MADE.time), abs=10 * STEP)
+    assert read.depth == pytest.approx(np.interp(read.time, MADE.time - MADE.time[0], MADE.depth), abs=1e-4)
+
+
 def test_a_tdms_file_that_was_cut_is_named_and_its_bytes_are_not_printed(tmp_path, capsys):
     write_tdms(tmp_path / "a.tdms", ["trial"])
     good = (tmp_path / "a.tdms").read_bytes()
