@@ -18,7 +18,8 @@ Array = NDArray[np.float64]
 
 _LOOKED_AT = 200
 _UNITS = re.compile(
-    r"(units?|einheit|unités?|unidad|unità|unidade|单位|單位|単位|단위)?[\s_.]*(column )?\d*", re.IGNORECASE
+    r"(.*[\s_.])?(units?|einheit|unités?|unidad|unità|unidade|单位|單位|単位|단위)[\s_.]*\d*|(column )?\d*",
+    re.IGNORECASE,
 )
 
 
@@ -49,7 +50,7 @@ def column(name: str, cells: Sequence[Any], mark: Decimal = ".", asked: bool = F
 
 def unit_beside(name: str, cells: Collection[Any]) -> str:
     """The unit that a column holds for the numbers at its left; empty if it is no such column. cells: the distinct
-    ones. Its name must be `Unit` or none: a column `sex` may hold the letter m."""
+    ones. Its name must be `Unit`, `Load Unit` or none: a column `sex` may hold the letter m."""
     texts = {str(cell).strip() for cell in cells} - {"", "None"}
     return unit_of(next(iter(texts))) if len(texts) == 1 and _UNITS.fullmatch(name) else ""
 

@@ -34,20 +34,29 @@ def has_decimal_comma(cell: str) -> bool:
     return bool(_WITH_COMMA.fullmatch(cell))
 
 
-def decimal_in(cells: Iterable[str]) -> Decimal:
-    """The decimal mark of these cells: a comma if one of them has it, and none that must have a point.
+def decimal_in(columns: Iterable[Iterable[Any]]) -> Decimal:
+    """The decimal mark of these columns of cells: a comma if one has it, and none that must have a point.
 
-    `1,050` can be a thousand and fifty; beside `0.25` and without `0,25` it is.
+    `1,050` can be a thousand and fifty; beside `0.25` and without `0,25` it is, and also below `980` in one column.
     """
-    seen = {_shown(cell.strip()) for cell, _ in map(split_cell, cells) if _NUMBER.fullmatch(cell)}
+    seen: set[tuple[str, bool]] = set()
+    for cells in columns:
+        texts = {split_cell(cell)[0].strip() for cell in cells if isinstance(cell, str)}
+        texts = {text for text in texts if _NUMBER.fullmatch(text)}
+        shown = {_shown(text) for text in texts if re.search("[.,]", text)}
+        if (
+            len(shown) == 1
+            and not next(iter(shown))[1]
+            and any(re.fullmatch(r"[+-]?[1-9]\d\d", text) for text in texts)
+        ):
+            shown = {("," if mark == "." else ".", True) for mark, _ in shown}
+        seen |= shown
     return "," if (",", True) in seen or ((",", False) in seen and (".", True) not in seen) else "."
 
 
 def _shown(cell: str) -> tuple[str, bool]:
-    """The decimal mark that a number has, and whether that is sure. None is sure to be a point."""
+    """The decimal mark that a number with marks has, and whether that is sure."""
     marks = re.findall("[.,]", cell)
-    if not marks:
-        return ".", False
     if marks.count(marks[-1]) > 1:  # between thousands
         return "," if marks[-1] == "." else ".", True
     return marks[-1], len(marks) > 1 or not re.fullmatch(r"[+-]?[1-9]\d{0,2}[.,]\d{3}", cell)

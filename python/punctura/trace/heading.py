@@ -34,11 +34,14 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     least = min(2, width)
     full = [len(row) == width and sum(is_number(cell, decimal) for cell in row) >= least for row in rows]
     for i, good in enumerate(full):
-        if good and (i + 1 == len(full) or full[i + 1]):
+        if good and next((full[j] for j in range(i + 1, len(rows)) if rows[j]), True):  # a comment has no cells
             while i > 0 and _has_gaps(rows[i - 1], width, decimal):
                 i -= 1
-            below = next((j for j in range(i, min(i + 3, len(rows))) if not _is_heading(rows[j])), i)
-            return below  # i, if each row has texts such as units
+            table = (
+                j for j in range(i, min(i + 4, len(rows)))
+                if not _is_heading(rows[j]) and not (_is_label(rows[j], decimal) and not _is_label(rows[-1], decimal))
+            )  # fmt: skip
+            return next(table, i)  # i, if each row has texts such as units
     bare = [[split_cell(cell)[0] if isinstance(cell, str) else cell for cell in row] for row in rows]
     return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
 
@@ -50,6 +53,13 @@ def _is_heading(row: Row) -> bool:
     return len(roles) > 1 or sum(map(is_unit, texts)) > 1
 
 
+def _is_label(row: Row, decimal: Decimal = ".") -> bool:
+    """Whether a row has a word in front of numbers: `Channel,0,1,2`."""
+    first, others = (row[0], [cell for cell in row[1:] if not _empty(cell)]) if len(row) else ("", [])
+    word = isinstance(first, str) and first[:1].isalpha() and not is_number(first, decimal)
+    return word and len(others) > 0 and all(is_number(cell, decimal) for cell in others)
+
+
 def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:
     """Whether a row of the table lacks numbers: some cells are empty, and no cell is text."""
     cells = [cell for cell in row if not _empty(cell)]
@@ -57,15 +67,22 @@ def _has_gaps(row: Row, width: int, decimal: Decimal) -> bool:
 
 
 def column_names(above: Sequence[Row], width: int, least: int | None = None) -> list[str]:
-    """Names for `width` columns from the rows above the numbers: the last row, with the units of a row below it.
+    """Names for `width` columns from the rows above the numbers: the last row, with the units of a row beside it.
 
     least: so many must be there, where the last columns are empty. Without names, the columns have their numbers, from
     1.
     """
-    fitting = [_texts(row, width, least or width) for row in above[-2:]]
+    told = list(above)
+    while told and (_is_label(told[-1]) or not any(str(cell or "").strip(" -") for cell in told[-1])):
+        told.pop()
+    fitting = [_texts(row, width, least or width) for row in told[-2:]]
     names = next(iter(fitting[-1:]), None)
-    if names is not None and len(fitting) == 2 and fitting[0] is not None and _are_units(names):
-        names = [with_unit(name, unit) for name, unit in zip(fitting[0], names, strict=True)]
+    if names is not None and len(fitting) == 2 and (other := fitting[0]) is not None:
+        if _are_units(names) or _are_units(other):
+            names, units = (other, names) if _are_units(names) else (names, other)
+            names = [with_unit(name, unit) for name, unit in zip(names, units, strict=True)]
+    elif names is not None and all(map(unit_of, names)):  # units alone
+        names = [f"[{unit_of(name)}]" for name in names]
     return unique(names if names is not None else [str(i + 1) for i in range(width)])
 
 

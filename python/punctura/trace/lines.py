@@ -118,6 +118,8 @@ def _names(names: list[str], header: dict[str, list[str]]) -> list[str]:
     if channels < len(others):
         names = names[: others[int(channels)]]  # the comments have a name in the language of the program
     units, channel = header.get("Y_Unit_Label", []), 0
+    if len(names) > len(others) + 1 and not any(units[1 : 2 * len(others) : 2]):
+        units = units[::2]  # each channel has two columns, of X and Y
     time = "s" if header.get("X_Dimension", ["Time"])[:1] in ([], [""], ["Time"]) else ""
     labelled = []
     for name in names:

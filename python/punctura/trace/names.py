@@ -9,7 +9,7 @@ import unicodedata
 # What a column is called, without accents, spaces and the words that may stand beside it.
 _NAMES = {
     "depth": """depth displacement disp displ position pos extension ext travel stroke crosshead insertion penetration
-        distance dist deflection indentation elongation compression pd x z
+        distance dist deflection indentation elongation compression pd x y z lvdt encoder extensometer
         weg hub tiefe verschiebung eindringung
         deplacement profondeur course allongement enfoncement
         recorrido desplazamiento profundidad posicion alargamiento carrera distancia
@@ -17,10 +17,10 @@ _NAMES = {
         spostamento profondita posizione corsa allungamento distanza penetrazione estensione
         変位 深さ 位置 伸び 距離 ストローク 変位量 押込み量 押し込み量
         位移 深度 行程 伸长 距离 변위 перемещение глубина""",
-    "force": """force load f fz fn
-        kraft last
-        charge effort
-        fuerza carga forca
+    "force": """force load f fx fy fz fn weight
+        kraft last gewicht
+        charge effort poids
+        fuerza carga forca peso
         forza carico
         力 荷重 載荷 载荷 荷载 负荷 負荷 推力 하중 сила нагрузка усилие""",
     "time": """time times t elapsed timestamp stamp clock datetime xvalue
@@ -33,9 +33,9 @@ _NAMES = {
 # Words that may stand beside a name and do not change what it is. Short ones only as whole words.
 _PARTS = """standard estandar axial axiale axialer assiale assial normal normale needle insertion penetration puncture
     indentation compressive compression crosshead actuator primary frame machine test elapsed total running measured
-    actual current absolute relative corrected filtered probe sensor cell gauge channel contact stamp applied grip
-    nadel traversen traverse kolben pruf pruef mess eindring einstich einstech druck maschinen versuchs verstrichene
-    essai aiguille ecoule ecoulee appliquee
+    actual current unix epoch absolute relative corrected filtered probe sensor cell gauge channel contact stamp
+    applied grip nadel traversen traverse kolben pruf pruef mess eindring einstich einstech druck maschinen
+    versuchs verstrichene essai aiguille ecoule ecoulee appliquee
     aguja ensayo prueba transcurrido cabezal cruceta celda
     prova traversa trascorso applicata cella
     試験 経過 クロスヘッド 圧縮 押込み 押し込み 挿入 穿刺

@@ -8,6 +8,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,7 @@ from punctura.trace.heading import column_names, first_row, with_unit
 from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, is_lvm, lvm_lines, read_lines, survey
 from punctura.trace.table import Table, check_bytes, check_size
 from punctura.trace.trace import Finding, TraceError, Unstated
+from punctura.trace.units import role_of
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -58,29 +60,36 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
     last = [_cells(line, delimiter) for line in tail]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
     check_size(path, found.rows, width)
-    mark = decimal or decimal_in(cell for row in last for cell in row)
+    mark = decimal or decimal_in(zip_longest(*last))
     above = [[] if is_comment(line) else _cells(line, delimiter) for line in head]
     first = first_row(above, width, mark)
     if first == len(above):
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
     empty = min(next((i for i, cell in enumerate(row[::-1]) if cell), width) for row in last)  # columns at the end
-    names = column_names([_cells(line.lstrip("#% "), delimiter) for line in head[:first]], width, width - empty)
+    told = [(line, _words(line.lstrip("#% "), delimiter, width)) for line in found.first[:first]]
+    told = [(line, words) for line, words in told if not (is_comment(line) and len(words) < width)]  # without remarks
+    names = column_names([words for _, words in told], width, width - empty)
     rows = _Rows(pieces, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
     cells, left_out = _parsed(path, rows, names, delimiter)
     table = Table()
+    beside_all = {name: _unit_beside(name, cells[name]) for name in names}
+    if all(name.isdigit() for name in names) and len({role_of(unit) for unit in beside_all.values()} - {""}) < 2:
+        beside_all = {}  # `ft` may name a sensor
     try:
         for name, beside in zip(names, [*names[1:], None], strict=True):
             read: Array
             if are_plain(cells[name].slice(0, LOOKED_AT).to_pylist()):
-                unit = _unit_beside(beside, cells[beside]) if beside else ""
-                named, read = with_unit(name, unit), _numbers(cells[name], mark, decimal is not None)
+                named, read = (
+                    with_unit(name, beside_all.get(beside or "", "")),
+                    _numbers(cells[name], mark, decimal is not None),
+                )
             else:
                 named, read = column(name, cells[name].to_pylist(), mark, decimal is not None)
             table[named] = np.insert(read, left_out, np.nan)
     except DoubtfulNumber as doubt:
         text = (
-            f"{path}: some numbers have a decimal comma; is the point in {doubt} a decimal point, or does it separate"
+            f"{path}: other numbers show a decimal comma; is the point in {doubt} a decimal point, or does it separate"
         )
         remedy = 'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
         raise DecimalError(f"{text} {remedy}", ["--decimal point|comma"]) from None
@@ -166,6 +175,15 @@ def _cells(line: str, delimiter: str) -> list[str]:
         return [cell.strip() for cell in next(reader, [])]
     except csv.Error:  # a cell of more than 131,072 characters
         return [line]
+
+
+def _words(line: str, delimiter: str, width: int) -> list[str]:
+    """The cells of a line above the numbers. A unit in brackets may stand behind a single space: `Depth (mm)`."""
+    cells = _cells(_spaced(line, delimiter), delimiter)
+    if delimiter != " " or len(cells) == width:
+        return cells
+    parts = re.split(r"\s{2,}|\t", line.strip())
+    return parts if len(parts) == width else re.findall(r"\S+(?: [\[({<][^\])}>]*[\])}>])?", line)
 
 
 def _parsed(path: Path, rows: _Rows, names: list[str], delimiter: str) -> tuple[pa.Table, list[int]]:

@@ -92,7 +92,7 @@ def split_name(name: str) -> tuple[str, str]:
 
     The unit is the usual symbol; an unknown one in brackets is given as it stands. A name that is only a unit is empty.
     """
-    text = unicodedata.normalize("NFKC", name).strip()
+    text = re.sub(r"(?<=[\])}>]) \d+$", "", unicodedata.normalize("NFKC", name).strip())  # of a repeated name
     if unit_of(text) and len(text) > 1:
         return "", unit_of(text)
     bracket = re.fullmatch(r"(.*?)\s*[\[({<]\s*([^\[\](){}<>]*?)\s*[\])}>]\W*", text)

@@ -74,7 +74,7 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
     width = max(map(len, rows), default=0)
     check_size(path, len(rows), width)
     rows = [(*row, *(None for _ in range(width - len(row)))) for row in rows]
-    mark = decimal or decimal_in(cell for row in rows[-LOOKED_AT:] for cell in row if isinstance(cell, str))
+    mark = decimal or decimal_in(zip(*rows[-LOOKED_AT:], strict=True))
     first = first_row(rows, width, mark)
     names = column_names(rows[:first], width) if first < len(rows) else []
     headed = [i for i, cell in enumerate(rows[first - 1]) if isinstance(cell, str)] if 0 < first < len(rows) else []

@@ -37,6 +37,13 @@ FILES = {
     "UTF-16": text_of(["Time (s)\tPosition (mm)\tForce (N)"], "{}\t{}\t{}").encode("utf-16"),
     "names in a comment": text_of(["# made by a robot", "# time_s,depth_mm,force_N"], "{},{},{}").encode(),
     "a last line that was cut": (text_of(["Elapsed Time (s),depth_mm,force_N"], "{},{},{}") + "9.9").encode(),
+    "a row of channels below the units": text_of(
+        ["Name,Time,Depth,Force", "Unit,s,mm,N", "Channel,0,1,2"], "7,{},{},{}"
+    ).encode(),
+    "a line below the units": text_of(["Zeit;Weg;Kraft", "s;mm;N", "-;-;-"], "{};{};{}").encode(),
+    "units above the names": text_of(["[s],[mm],[N]", "Time,Depth,Force"], "{},{},{}").encode(),
+    "units in brackets between spaces": text_of(["Time (s) Depth (mm)  Force (N)"], "{} {} {}").encode(),
+    "a remark below the first row": text_of(["t_s,depth_mm,force_N"], "{},{},{}").replace("\n", "\n# x\n", 2).encode(),
     "a line of text at the end": (text_of(["t_s;depth_mm;force_N"], "{};{};{}") + "End of test\n").encode(),
 }
 
@@ -84,6 +91,11 @@ def test_two_tables_side_by_side_are_asked_for(tmp_path):
     )  # the second force is of another specimen
     with pytest.raises(TraceError, match="more than one column could be the force"):
         read_trace(tmp_path / "a.csv")
+
+
+def test_the_second_table_is_chosen_by_the_numbers_of_its_columns(tmp_path):
+    (tmp_path / "a.csv").write_text(text_of([f"{'Time (s),Depth (mm),Force (N),' * 2}x"], "7,{1},{2},{0},{1},{2},7"))
+    assert read_trace(tmp_path / "a.csv", {"time": 4, "depth": 5, "force": 6}).depth == pytest.approx(MADE.depth)
 
 
 def test_many_lines_of_remarks_may_stand_below_the_table(tmp_path):

@@ -49,6 +49,8 @@ HEADS = {
     .replace(")\t\n", ")\n"),
     "a mass and an acceleration": written("Time (s),Depth (mm),Force (N),Sample (g),ax (g)", order="tdfdt", mark=","),
     "capital between words": written("timeUs,depthMm,forceN", time="us", mark=","),
+    "a balance and the time of a computer": written("Unix time (s),Depth (mm),Weight (g)", force="gf", mark=","),
+    "units of one letter as names": written("s,mm,N", mark=","),
     "units as names": written("sec,in,ozf", "in", "ozf", mark=","),
     "a name of somebody": written("run (s),tip went to (mil),felt (dyn)", "mil", "dyn", mark=","),
 }
@@ -109,6 +111,21 @@ def test_the_same_column_twice_is_no_doubt_and_an_axis_at_rest_is_no_force(tmp_p
     check(tmp_path / "b.csv", units={"depth": "m", "force": "N"})
 
 
+@pytest.mark.parametrize(
+    ("head", "role"),
+    [
+        ("time_s,x_mm,y_mm,Fz (N)", "depth"),
+        ("time_s,Crosshead (mm),LVDT (mm),force_N", "depth"),
+        ("time_s,Fx (N),Fy (N),depth_mm", "force"),
+    ],
+)
+def test_axes_and_gauges_that_differ_are_asked_for(tmp_path, head, role):
+    rows = [f"{t},{d},{d * d},{f}" if role == "depth" else f"{t},{f},{f * f},{d}" for t, d, f in SAMPLES]
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows]))
+    with pytest.raises(TraceError, match=f"more than one column could be the {role}"):
+        read_trace(tmp_path / "a.csv")
+
+
 ENCODINGS = {
     "gbk": "时间(s),位移(mm),力(N)",
     "gb18030": "试验力(N)x,位移值（mm）,试验力(N),时间(s)",
@@ -167,6 +184,19 @@ def test_a_comma_between_thousands_is_known_beside_decimal_points(tmp_path):
     )
     (tmp_path / "a.csv").write_text(text)
     check(tmp_path / "a.csv", rel=1e-4)
+
+
+@pytest.mark.parametrize(("between", "mark"), [(",", "\t"), (",", '","'), (".", ";")])
+def test_whole_numbers_below_a_thousand_show_the_mark_between_thousands(tmp_path, between, mark):
+    text = written("time_ms;depth_um;force_mN".replace(";", mark), "um", "mN", "ms", mark=mark,
+                   cell=lambda x: f"{x:,.0f}".replace(",", between))  # fmt: skip
+    quoted = "\n".join(f'"{line}"' for line in text.splitlines())
+    (tmp_path / "a.csv").write_text(quoted if '"' in mark else text)
+    read = read_trace(tmp_path / "a.csv", decimal="," if between == "." else None)
+    assert read.depth == pytest.approx(MADE.depth, abs=1e-6) and read.force == pytest.approx(MADE.force, abs=1e-3)
+    if between == ".":
+        with pytest.raises(TraceError, match="a decimal point, or does it separate thousands"):
+            read_trace(tmp_path / "a.csv")
 
 
 def test_many_lost_rows_are_severe_and_nothing_else_is_concluded(tmp_path):
@@ -245,6 +275,8 @@ def test_a_labview_measurement_has_its_units_in_the_header(tmp_path, mark, colum
     lines = written(head, order=order, cell=lambda x: repr(x).replace(".", mark)).splitlines()
     if columns == "No":
         lines = [*lines[:22], *("\t" + line for line in lines[22:])]
+    if columns == "Multi":  # a unit for each Y, between those of X
+        lines = [line.replace("Millimeters\tNewtons", "Millimeters\t\tNewtons") for line in lines]
     (tmp_path / "a.lvm").write_text("\n".join(lines))
     assert not check(tmp_path / "a.lvm").findings
 

@@ -46,6 +46,8 @@ def test_units_in_a_column_of_their_own(tmp_path):
     rows = [f"{i},{f:.6f},N,{d:.6f},mm,OK,10:30:{t:09.6f}," for i, (t, d, f) in enumerate(ROWS)]
     check(read_trace(written(tmp_path / "a.csv", above + rows)))
     check(read_trace(written(tmp_path / "b.txt", [f"{d:.6f} mm {f:.6f} N" for _, d, f in ROWS])), time=False)
+    above = ["Force,Force Units,Displacement,Displacement Units,Time (s)"]
+    check(read_trace(written(tmp_path / "d.csv", above + [f"{f:.6f},N,{d:.6f},mm,{t:.6f}" for t, d, f in ROWS])))
     book = Workbook()
     for row in [["Displacement", "Unit", "Force", "Unit"], *([d, "mm", f, "N"] for _, d, f in ROWS)]:
         book.active.append(row)
@@ -57,6 +59,9 @@ def test_letters_beside_numbers_need_not_be_their_unit(tmp_path):
     lines = ["depth,sex,force_N", *(f"{d:.6f},m,{f:.6f}" for _, d, f in ROWS)]
     with pytest.raises(TraceError, match="the unit of the depth column 'depth' is not stated"):
         read_trace(written(tmp_path / "a.csv", lines))
+    frames = [f"{t:.6f},{d:.6f},ft,{f:.6f}" for t, d, f in ROWS]  # no names; ft is that of a sensor
+    with pytest.raises(TraceError, match="no column is known to be the depth"):
+        read_trace(written(tmp_path / "b.csv", frames), {"force": 4}, {"force": "N"})
     mixed = [f"{d:.6f},{'mm' if i < 900 else 'cm'},{f:.6f}" for i, (_, d, f) in enumerate(ROWS)]
     with pytest.raises(TraceError, match="the unit of the depth column 'depth' is not stated"):
         read_trace(written(tmp_path / "b.csv", ["depth,Unit,force_N", *mixed]))
