@@ -29,7 +29,7 @@ Build: {build}
 
 figure.svg, figure.pdf    the model force of each run, and the mean of {n} runs with one standard deviation (n - 1)
 curves.csv, .parquet      the drawn curves: {axis};
-                          model, felt and permitted force in N; for each: one column for each run, the mean, the
+                          model force, felt force and force limit in N; for each: one column for each run, the mean, the
                           deviation, and the number n of runs at each place; with a syringe also the thumb's
                           model force in N, the pressure in Pa and the depth of the plunger in m
 statistics.csv            the numbers of each run, SI; drop and overshoot are the largest of the run's pops
@@ -38,10 +38,10 @@ scenes/NN.toml            the scene of a run; `punctura run FILE` runs it
 
 {runs}
 
-Model force: what the model gives. Felt force: what the device gives, after all limits. Permitted force: the most that
-the limits allow. A simulated run has no device: its felt and permitted forces are empty. All are positive if they push
-the needle out. Work: of the hand against the force along the needle, in the first insertion up to its deepest place.
-Overshoot: how far the bevel ran on past a membrane in the 0.3 s after the pop. {against}
+Model force: what the model gives. Felt force: what the device gives, after all limits. Force limit: the most that the
+limits allow. A simulated run has no device: its felt force and its force limit are empty. Forces are positive if they
+push the needle out. Work: of the hand against the force along the needle, in the first insertion up to its deepest
+place. Overshoot: how far the bevel ran on past a membrane in the 0.3 s after the pop. {against}
 
 How to cite: CITATION.cff. Please cite the software with its version, and the paper whose model it computes.
 """
@@ -54,7 +54,7 @@ _UNITS = {
     "duration": "s", "depth": "m", "overshoot": "m", "work": "J", "felt_work": "J", "pressure_peak": "Pa",
     "plunger_travel": "m",
 }  # fmt: skip
-_CURVES = {"depth": "m", "pressure": "Pa", "plunger": "m"}  # their columns; the others are forces
+_CURVES = {"depth": "m", "pressure": "Pa", "plunger": "m", "force_limit": "N"}  # their units; the others are forces
 
 
 MOST_TICKS_IN_ALL = 5_000_000  # of all runs together: with three membranes up to 1.4 GB as CSV before it is packed
@@ -131,7 +131,7 @@ def citation() -> str:
 def ticks_table(run: Run) -> pa.Table:
     """Every tick of a run as a table, SI."""
     columns = {"time_s": run.time, "depth_m": run.depth}
-    columns |= {"model_force_N": run.model, "felt_force_N": run.felt, "permitted_force_N": run.permitted}
+    columns |= {"model_force_N": run.model, "felt_force_N": run.felt, "force_limit_N": run.force_limit}
     if np.isfinite(run.thumb).any():
         columns |= {"thumb_force_N": run.thumb, "pressure_Pa": run.pressure, "plunger_m": run.plunger}
     for i in range(run.depths.shape[1]):

@@ -67,7 +67,7 @@ class Band:
 
 @dataclass
 class Comparison:
-    """Several runs. `bands` holds a Band for each of "model", "felt", "permitted" and, against time, "depth".
+    """Several runs. `bands` holds a Band for each of "model", "felt", "force_limit" and, against time, "depth".
     If a run has a syringe, also "thumb", N, "pressure", Pa, and "plunger", m.
 
     `membranes` holds one Band for each membrane of the first run: the model's resistance along the needle against the
@@ -150,7 +150,7 @@ def compare(runs: Iterable[Run], on: On = "depth", points: int = POINTS) -> Comp
 def _curves(run: Run, on: On, membranes: int) -> dict[str, tuple[Array, Array]]:
     """x and y of each quantity, x without gaps and increasing, thinned to what POINTS can show."""
     rows = slice(run.touch, None)
-    totals = {"model": run.model[rows], "felt": run.felt[rows], "permitted": run.permitted[rows]}
+    totals = {"model": run.model[rows], "felt": run.felt[rows], "force_limit": run.force_limit[rows]}
     totals |= {name: getattr(run, name)[rows] for name in OF_PLUNGER}
     each = range(min(membranes, run.forces.shape[1]))
     if on == "time":

@@ -33,7 +33,7 @@ class Run:
     felt: Array = field(repr=False)  # (n,), size of the device's force, N; NaN without a device
     model_along: Array = field(repr=False)  # (n,), the model's force along the needle, N
     felt_along: Array = field(repr=False)  # (n,), the device's force along the needle, N; NaN without a device
-    permitted: Array = field(repr=False)  # (n,), the most that the limits allow, N; NaN without a device
+    force_limit: Array = field(repr=False)  # (n,), the most that the limits allow, N; NaN without a device
     depths: Array = field(repr=False)  # (n, m), of the tip in each membrane, m
     forces: Array = field(repr=False)  # (n, m), the model's resistance of each membrane along the needle, N
     # Of the syringe's plunger, (n,); NaN without a syringe.
@@ -93,17 +93,17 @@ def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]])
         tips.append(np.asarray(tip, np.float64))
         axes.append(np.asarray(ticks.axis, np.float64))
         model = ticks.model_force if "model_force" in ticks else ticks.force
-        permitted = ticks.get("ceiling")  # only a device has one
+        force_limit = ticks.get("ceiling")  # only a device has one
         none = np.full(len(ticks), np.nan)
         rows.append(
             [
                 np.asarray(ticks.time, np.float64),
                 (tips[-1] - np.asarray(first.point)) @ normal,
                 resistance(model, ticks.axis),
-                none if permitted is None else resistance(ticks.force, ticks.axis),
+                none if force_limit is None else resistance(ticks.force, ticks.axis),
                 -np.einsum("ij,ij->i", model, ticks.axis),
-                none if permitted is None else -np.einsum("ij,ij->i", ticks.force, ticks.axis),
-                none if permitted is None else np.asarray(permitted, np.float64),
+                none if force_limit is None else -np.einsum("ij,ij->i", ticks.force, ticks.axis),
+                none if force_limit is None else np.asarray(force_limit, np.float64),
                 np.asarray(ticks.depth, np.float64).reshape(len(ticks), -1)[:, :members],
                 -np.asarray(ticks.axial_force, np.float64).reshape(len(ticks), -1)[:, :members],
                 -np.asarray(ticks.get("thumb_force", none), np.float64),

@@ -159,7 +159,7 @@ def test_a_recording_is_compared_by_what_its_device_gave(recording):
     ticks = open_recording(recording).ticks()
     assert run.name == "run one" and len(run.time) == len(ticks)
     assert np.abs(run.felt).max() == pytest.approx(float(np.linalg.norm(ticks.force, axis=1).max()), rel=1e-6)
-    assert np.nanmax(run.permitted) == pytest.approx(float(np.nanmax(ticks.ceiling)), rel=1e-6)
+    assert np.nanmax(run.force_limit) == pytest.approx(float(np.nanmax(ticks.ceiling)), rel=1e-6)
 
 
 def test_the_motion_of_a_recording_moves_another_scene(recording, scene):
@@ -214,6 +214,7 @@ def test_the_zip_file_has_figure_data_scenes_and_how_to_cite(tmp_path, runs):
     assert np.allclose(means, comparison.bands["model"].mean, equal_nan=True)
     ticks = pq.read_table(io.BytesIO(read["runs/02.parquet"]))
     assert np.array_equal(ticks["model_force_N"], runs[1].model)
+    assert "force_limit_N" in ticks.column_names and b",force_limit_N_mean," in read["curves.csv"]
     (tmp_path / "again.toml").write_bytes(read["scenes/02.toml"])
     assert pn.load_scene(str(tmp_path / "again.toml")).membranes[0].membrane.stiffness == VALUES[1]
     assert pn.__version__ in read["README.txt"].decode() and b"cff-version" in read["CITATION.cff"]

@@ -8,14 +8,14 @@ import type { LabBand, LabComparison } from "../../wire/messages.ts";
 import { shortNames } from "./fields.ts";
 
 export type On = "depth" | "time";
-export type Quantity = "model" | "felt" | "permitted" | "thumb" | "pressure" | "plunger";
+export type Quantity = "model" | "felt" | "force_limit" | "thumb" | "pressure" | "plunger";
 const MM = 1e3;
 const PALE = 8; // more runs than this are drawn paler, behind their mean
 
 export const QUANTITIES: Readonly<Record<Quantity, string>> = {
   model: "model force",
   felt: "felt force",
-  permitted: "force limit",
+  force_limit: "force limit",
   thumb: "thumb, model force",
   pressure: "pressure in the syringe",
   plunger: "plunger",
