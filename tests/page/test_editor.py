@@ -1,7 +1,10 @@
 """Someone tunes a membrane while it runs."""
 
+import re
+
 from person import ready, tab
 from playwright.sync_api import expect
+from punctura.scene import scene_path
 
 
 def law_text(page):
@@ -39,3 +42,16 @@ def test_the_other_solver_is_one_click_away(page):
     page.get_by_role("radio", name="Paper").or_(page.get_by_role("button", name="Paper")).first.click()
     page.get_by_text("Compare with the other solver").click()
     expect(page.locator(".force-depth")).to_contain_text("solver")
+
+
+def test_a_wrong_scene_file_is_refused_without_the_names_of_its_keys(page, tmp_path):
+    ready(page)
+    tab(page, "Scene")
+    file = tmp_path / "wrong.toml"
+    text = scene_path("k06-fig10").read_text(encoding="utf-8")
+    file.write_text(re.sub("stiffness_N_per_mm = [0-9.]+\n", "stiffness_N_per_mm = -1\n", text), encoding="utf-8")
+    page.get_by_label("Scene file").set_input_files(file)
+    side = page.locator(".side")
+    expect(side).to_contain_text("wrong.toml was not loaded; the run continues unchanged.")
+    expect(side).to_contain_text("membrane 1, stiffness = -1: ")
+    expect(side).not_to_contain_text("_N_per_mm")

@@ -47,7 +47,7 @@ def test_a_scene_with_a_syringe_offers_the_goals_of_the_plunger(page):
     side.get_by_role("combobox", name="Scene", exact=True).select_option("Epidural")
     plunger.fill("20")
     plunger.press("Tab")
-    expect(side.locator("[id='maker-goal.feel_plunger-problem']")).to_have_text("must be at most 15 N")
+    expect(side.locator("[id='maker-goal.feel_plunger-problem']")).to_have_text("Must be at most 15 N.")
     plunger.fill("2")
     side.get_by_label("In the 1 s after the plunger gives way, inject at most, mL").fill("1.5")
     side.get_by_role("button", name="Try", exact=True).click()

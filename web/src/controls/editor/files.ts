@@ -2,6 +2,7 @@ import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { fileName, saveAddress } from "../download.ts";
 import type { Draft } from "./draft.ts";
+import { sentence } from "./problems.ts";
 
 const LARGEST = 200_000; // characters; the server refuses more
 
@@ -49,8 +50,6 @@ async function loadFile(app: App, file: File): Promise<string[]> {
   const reply = await app.ask({ do: "load_text", toml });
   if (!reply) return [`${file.name} was not loaded: no connection.`];
   if (reply.ok) return [];
-  const problems = reply.problems.map(({ path, value, reason }) =>
-    path ? `${path}${value && value !== "MISSING" ? ` = ${value}` : ""}: ${reason}` : reason,
-  );
+  const problems = reply.problems.map(sentence);
   return [`${file.name} was not loaded; the run continues unchanged.`, ...(problems.length ? problems : [reply.text])];
 }

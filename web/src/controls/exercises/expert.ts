@@ -4,6 +4,7 @@ import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
 import { recordingPath } from "../../wire/api.ts";
 import type { ExerciseOverview, RecordingEntry, RecordingTrace, Result } from "../../wire/messages.ts";
+import { words } from "../editor/problems.ts";
 import { fetchSource } from "../recordings/fetch_source.ts";
 import { type Trace, traceOf } from "./trace.ts";
 
@@ -83,7 +84,8 @@ export function expertChoice(app: App, exercise: ExerciseOverview, changed: () =
 
 /** Says what is wrong with a recording; `ask` has said any other refusal. */
 function tellProblems(app: App, reply: Reply | null): void {
-  if (reply && !reply.ok && reply.problems.length) app.notify(reply.problems.map(({ reason }) => reason).join(" "));
+  if (reply && !reply.ok && reply.problems.length)
+    app.notify(reply.problems.map(({ reason }) => words(reason)).join(" "));
 }
 
 /** Asks for the depth as the exercise judges it. */

@@ -1,7 +1,7 @@
 import { element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
 import type { SceneOutline } from "../../../wire/messages.ts";
-import { sentence } from "../../editor/problems.ts";
+import { sentence, words } from "../../editor/problems.ts";
 import type { Person } from "../person.ts";
 import { changed, type Draft, draftOf, type FieldName, fieldOf, nameOf, tablesOf } from "./draft.ts";
 import { type ExerciseSchema, type GoalField, goalFields } from "./goals.ts";
@@ -46,7 +46,7 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     const left = problems.filter((problem) => {
       const field = fieldOf(problem.path, tables());
       const place = field && places.get(field);
-      if (place) place.textContent = `${place.textContent} ${problem.reason}`.trim();
+      if (place) place.textContent = `${place.textContent} ${words(problem.reason)}`.trim();
       return !place;
     });
     note.textContent = left.map(sentence).join(" ");
@@ -92,7 +92,7 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     places.set(key, problem);
     return element("div", { class: "field maker-field" }, element("label", { for: box.id }, label), box, problem);
   };
-  const words = (key: "title" | "instruction" | "space", label: string): HTMLElement => {
+  const line = (key: "title" | "instruction" | "space", label: string): HTMLElement => {
     const box = element("input", { type: "text", class: "words", maxlength: 200 });
     box.addEventListener("change", () => change({ [key]: box.value }));
     updates.push(() => {
@@ -167,8 +167,8 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     places.clear();
     const membranes = scene().membranes.map(({ name }): [string, string] => [name, name]);
     form.replaceChildren(
-      words("title", "Title"),
-      words("instruction", "Instruction"),
+      line("title", "Title"),
+      line("instruction", "Instruction"),
       choice(
         "scene",
         "Scene",
@@ -186,7 +186,7 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
       strip.root,
       place("from", "Upper edge, mm behind its far face"),
       place("to", "Lower edge, mm behind its far face", true),
-      words("space", "Name of the goal"),
+      line("space", "Name of the goal"),
       tick("wholeTip", "Whole tip in the goal, not only the point"),
       place("angle", "Needle to skin, degrees"),
       ...fields.filter(({ needsSyringe }) => scene().syringe || !needsSyringe).map((field) => goal(field, membranes)),

@@ -4,6 +4,7 @@ import type { App } from "../../../state/app.ts";
 import type { FitLine, IdentifyLine } from "../../../wire/messages.ts";
 import { blockLine, watchBlock } from "../../blocked.ts";
 import { fileName } from "../../download.ts";
+import { sentence } from "../../editor/problems.ts";
 import { findingsPart, fitParts, rivalsPart } from "./parts.ts";
 import { type TracePlot, tracePlot } from "./plot.ts";
 import { fitWords, rankWords } from "./words.ts";
@@ -55,7 +56,7 @@ export function traceDialog(app: App, progress: HTMLElement, closed: () => void)
   const load = async (): Promise<void> => {
     trouble.textContent = "";
     const reply = await app.ask({ do: "load_text", toml: scene });
-    const problems = (reply?.problems ?? []).map(({ path, reason }) => `${path}: ${reason}`);
+    const problems = (reply?.problems ?? []).map(sentence);
     if (!reply?.ok) trouble.textContent = [reply?.text ?? "No connection.", ...problems].join(" ");
     else {
       dialog.close();
