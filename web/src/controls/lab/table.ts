@@ -6,13 +6,13 @@ type LabNumber = Exclude<keyof Statistics, "name" | "pops">;
 /** The columns: the number, its heading, and the factor from SI to the heading's unit. */
 type Column = readonly [name: LabNumber, head: string, gain: number, places: number];
 const COLUMNS: readonly Column[] = [
-  ["peak", "peak, N", 1, 3],
-  ["felt_peak", "felt peak, N", 1, 3],
+  ["peak", "peak model force, N", 1, 3],
+  ["felt_peak", "peak felt force, N", 1, 3],
   ["drop", "largest drop, N", 1, 3],
   ["overshoot", "overshoot, mm", 1e3, 2],
   ["work", "work, mJ", 1e3, 2],
   ["duration", "duration, s", 1, 2],
-  ["thumb_peak", "thumb, N", 1, 2],
+  ["thumb_peak", "thumb, model force, N", 1, 2],
   ["pressure_peak", "pressure, kPa", 1e-3, 1],
   ["plunger_travel", "plunger, mm", 1e3, 1],
 ];
