@@ -14,7 +14,7 @@ from punctura.exercise.course import asked_angle
 from punctura.exercise.exercise import ExerciseFile
 from punctura.exercise.goals.goal import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
-from punctura.exercise.quantities import degrees, mm, tenths, times
+from punctura.exercise.quantities import degrees, mm, no_more_than, tenths, times
 from punctura.exercise.result import Coaching, Remark
 from punctura.exercise.seen import (
     ANGLE_GOOD_DEG,
@@ -60,7 +60,7 @@ def kept_the_line(seen: Seen) -> Iterator[Remark]:
     if m.lateral_deviation is None or m.net_distance is None or m.net_distance < 5e-3:
         return
     if m.lateral_deviation <= ASIDE_GOOD_M:
-        text = f"You kept to the line of entry: the tip went at most {mm(m.lateral_deviation)} to its side."
+        text = f"You kept to the line of entry: the tip went {no_more_than(m.lateral_deviation)} to its side."
         yield Remark(about="aside", text=text, numbers={"aside_m": m.lateral_deviation})
 
 

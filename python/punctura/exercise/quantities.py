@@ -15,6 +15,11 @@ def mm(metres: float) -> str:
     return f"{tenths(metres * 1e3)} mm"
 
 
+def no_more_than(metres: float) -> str:
+    """The largest distance; what is rounded to nothing has no number."""
+    return "less than 0.1 mm" if metres < 0.05e-3 else f"at most {mm(metres)}"
+
+
 def millilitres(cubic_metres: float) -> str:
     return f"{tenths(cubic_metres * 1e6)} mL"
 

@@ -194,7 +194,7 @@ def test_the_way_to_the_side_is_measured(write):
     )
     straight = coached(write, way((-6, 5)), REACH)
     assert "aside" not in about(straight.change)
-    assert about(straight.good)["aside"] == "You kept to the line of entry: the tip went at most 0.0 mm to its side."
+    assert about(straight.good)["aside"] == "You kept to the line of entry: the tip went less than 0.1 mm to its side."
 
 
 def test_at_most_three_of_each_and_the_most_important_first(write):

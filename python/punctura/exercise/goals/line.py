@@ -15,7 +15,7 @@ from punctura.errors import Problem
 from punctura.events import Event
 from punctura.exercise.fields import Distance, Vector, asked, no_direction
 from punctura.exercise.goals.goal import BegunJudge, Course, Given, Goal, SoFar
-from punctura.exercise.quantities import mm, tenths
+from punctura.exercise.quantities import mm, no_more_than, tenths
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import Seen
 from punctura.exercise.ticks import JudgedTicks, Moment, TargetSpace, contacts, first_of
@@ -128,7 +128,7 @@ class LineJudge(BegunJudge):
 
     def praise(self, seen: Seen) -> Iterator[Remark]:
         if self.farthest is not None:
-            text = f"You hit the middle of {seen.space.name}: at most {mm(self.farthest)} beside its middle line."
+            text = f"You hit the middle of {seen.space.name}: {no_more_than(self.farthest)} beside its middle line."
             yield Remark(about="line", text=text, numbers={"beside_m": self.farthest, "allowed_m": self.within})
 
 
