@@ -150,8 +150,8 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
       nb::cast<bool>(numpy.attr("shares_memory")(out, given)))
     throw nb::value_error("out overlaps p: give p itself, or an array of its own");
   const Grid<double> force{array.data(), array.stride(0), array.stride(1)};
-  const Progress told(progress);
-  batch::RunOptions options = options_of(threads, instructions, told);
+  const Progress reporter(progress);
+  batch::RunOptions options = options_of(threads, instructions, reporter);
   options.block = count_from(block, "block", 1, 1u << 20);
   const OneThread::Running running(self);
   LineBatch::Outcome outcome;
@@ -166,7 +166,7 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
                                    "All trials keep the state from before")
                               .c_str());
   }
-  told.tell(1, 1);
+  reporter.report(1, 1);
   return result;
 }
 

@@ -35,9 +35,9 @@ void explain(PyObject* function, PyObject* const* given, std::size_t count, PyOb
         nb::dict named;
         if (words)
           for (const nb::handle word : nb::borrow<nb::tuple>(words)) named[word] = nb::handle(given[count++]);
-        const nb::object told = nb::module_::import_("punctura.call_errors")
-                                    .attr("explained")(nb::handle(function), arguments, named, text);
-        PyErr_SetObject(PyExc_TypeError, told.ptr());
+        const nb::object error_text = nb::module_::import_("punctura.call_errors")
+                                          .attr("explained")(nb::handle(function), arguments, named, text);
+        PyErr_SetObject(PyExc_TypeError, error_text.ptr());
         return;
       }
     }

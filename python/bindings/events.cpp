@@ -120,8 +120,8 @@ Object<"list[FoundEvent]"> add(BatchFinder& finder,
                       .proxy = {},
                       .direction = direction.triple(i, j),
                       .phase = phase_of(phase(i, j))};
-      const double told = tick(i);  // NaN in a batch without that column
-      const auto number = told >= 0 && told < 0x1p63 ? static_cast<std::uint64_t>(told) : finder.ticks;
+      const double given = tick(i);  // NaN in a batch without that column
+      const auto number = given >= 0 && given < 0x1p63 ? static_cast<std::uint64_t>(given) : finder.ticks;
       // Without a commands column, the first tick of the batch takes the new scene.
       const auto asked = commands ? bits_of(commands(i)) : i == 0 ? command_scene : 0u;
       const double at = time ? time(i) : static_cast<double>(number) / finder.rate;

@@ -60,7 +60,7 @@ void def_bounds(nb::class_<L>& law) {
 }
 
 /// Adds the angle in radians to the problem of an angle that can be meant in degrees.
-void tell_radians(std::vector<Problem>& problems) {
+void suggest_radians(std::vector<Problem>& problems) {
   for (Problem& problem : problems) {
     if (problem.path != "needle.tip_angle" || !(problem.value > 0 && problem.value < 90)) continue;
     problem.reason += ". If you meant " + decimal_text(problem.value, 6) + " degrees, write " +
@@ -157,7 +157,7 @@ void bind_model(nb::module_& m) {
   def_struct<needle_fields>(m, {"Needle", "A needle: diameter w (m) and tip angle theta (rad). K06 Fig. 1", "needle"},
                             [](const Needle& made, std::vector<Problem>& problems) {
                               check(made, "needle", problems);
-                              tell_radians(problems);
+                              suggest_radians(problems);
                             });
   def_struct<membrane_fields>(
       m, {"Membrane", "A membrane that grips the needle with dry friction. K06 section 2", "membrane"});

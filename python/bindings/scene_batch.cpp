@@ -62,8 +62,8 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
   }
   if (all.seeds.size() != trials) throw nb::value_error("seeds: one for each trial is needed");
 
-  const Progress told(progress);
-  const batch::RunOptions options = options_of(threads, instructions, told);
+  const Progress reporter(progress);
+  const batch::RunOptions options = options_of(threads, instructions, reporter);
   batch::SceneResults results;
   std::optional<batch::TrialProblems> wrong;
   std::vector<double> force;
@@ -92,7 +92,7 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
       problem.path = "trial " + std::to_string(wrong->trial) + ": " + problem.path;
     raise_if(wrong->problems);
   }
-  told.tell(1, 1);
+  reporter.report(1, 1);
   const std::vector<std::size_t> of_membrane{trials, scene.membranes.size()};
   using R = batch::RunNumbers;
   using M = batch::MembraneNumbers;

@@ -28,14 +28,14 @@ inline const batch::LineCode& code_named(const std::optional<std::string>& given
 
 /// The options of a run that tells its progress and ends at Ctrl-C.
 inline batch::RunOptions options_of(const nb::object& threads, const std::optional<std::string>& instructions,
-                                    const Progress& told) {
+                                    const Progress& progress) {
   batch::RunOptions options;
   options.threads = threads_from(threads);
   options.code = &code_named(instructions);
-  options.watch = [&told](std::size_t done, std::size_t all) {
+  options.watch = [&progress](std::size_t done, std::size_t all) {
     const WithLock lock;
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    told.tell(done, all);
+    progress.report(done, all);
     return true;
   };
   return options;

@@ -18,22 +18,22 @@ class Progress {
   explicit Progress(const nb::object& given) {
     if (given.is_none()) return;
     context_ = nb::module_::import_("punctura.progress").attr("reporting")(given);
-    tell_ = context_.attr("__enter__")();
+    report_ = context_.attr("__enter__")();
   }
   Progress(const Progress&) = delete;
   ~Progress() {
     try {
-      if (tell_) context_.attr("__exit__")(nb::none(), nb::none(), nb::none());
+      if (report_) context_.attr("__exit__")(nb::none(), nb::none(), nb::none());
     } catch (nb::python_error& error) {
       error.discard_as_unraisable("progress");
     }
   }
-  void tell(std::size_t done, std::size_t all) const {
-    if (tell_) tell_(static_cast<double>(done) / static_cast<double>(all));
+  void report(std::size_t done, std::size_t all) const {
+    if (report_) report_(static_cast<double>(done) / static_cast<double>(all));
   }
 
  private:
-  nb::object context_, tell_;
+  nb::object context_, report_;
 };
 
 /// Calls tick(i) for i = 0 ... n-1. Every 50 ms it tells the progress, and Ctrl-C can act: the object has then made
@@ -51,7 +51,7 @@ void make_ticks(std::size_t n, Tick&& tick, const nb::object& given = nb::none()
       } while (i < n && std::chrono::steady_clock::now() < until);
     }
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    progress.tell(i, n);
+    progress.report(i, n);
   }
 }
 

@@ -50,7 +50,7 @@ void demand(bool good) {
   if (!good) std::abort();
 }
 /// A call outside a tick has failed: there is a text, and it is fit for a log.
-punctura_status told(punctura_status status) {
+punctura_status checked(punctura_status status) {
   std::string text = punctura_last_error();
   std::erase(text, '\n');
   if (status != PUNCTURA_OK && status != PUNCTURA_NO_PEEK) demand(!text.empty() && punctura::is_plain_text(text));
@@ -73,15 +73,15 @@ struct Handle {
   template <typename... Rest>
   void renew(const punctura_scene* scene, Rest... rest) {
     Object* made = nullptr;
-    if (told(make(scene, rest..., &made)) != PUNCTURA_OK) return demand(made == nullptr);
+    if (checked(make(scene, rest..., &made)) != PUNCTURA_OK) return demand(made == nullptr);
     free(std::exchange(object, made));
   }
   void again(Input& input) {
     std::vector<unsigned char> state(size(object) + 8);
-    told(save(object, state.data(), input.byte() % 8 == 0 ? size(object) / 2 : size(object)));
+    checked(save(object, state.data(), input.byte() % 8 == 0 ? size(object) / 2 : size(object)));
     if (input.byte() % 2 == 0 && size(object) > 0)
       state[(input.byte() * 256u + input.byte()) % size(object)] ^= input.byte();
-    told(restore(object, state.data(), input.byte() % 8 == 0 ? size(object) + 1 : size(object)));
+    checked(restore(object, state.data(), input.byte() % 8 == 0 ? size(object) + 1 : size(object)));
   }
 };
 #define HANDLE(name)                                                                             \
@@ -114,13 +114,13 @@ void change_scene(Objects& all, Input& input) {
   switch (input.byte() % 7) {
     case 0: {
       const int count = punctura_scene_field_count(all.scene);
-      if (told(punctura_scene_field(all.scene, input.byte() % (count + 1), &field)) == PUNCTURA_OK)
-        told(punctura_scene_set(all.scene, field.path, input.number()));
+      if (checked(punctura_scene_field(all.scene, input.byte() % (count + 1), &field)) == PUNCTURA_OK)
+        checked(punctura_scene_set(all.scene, field.path, input.number()));
       break;
     }
     case 1: punctura_scene_set_word(all.scene, words[input.byte() % std::size(words)], input.text().c_str()); break;
-    case 2: told(punctura_scene_make_rows(all.scene, lists[input.byte() % std::size(lists)], input.byte())); break;
-    case 3: told(punctura_scene_add_syringe(all.scene)); break;
+    case 2: checked(punctura_scene_make_rows(all.scene, lists[input.byte() % std::size(lists)], input.byte())); break;
+    case 3: checked(punctura_scene_add_syringe(all.scene)); break;
     case 4: {
       punctura_membrane membrane;
       if (punctura_membrane_init(&membrane, sizeof membrane) != PUNCTURA_OK) break;
@@ -128,11 +128,11 @@ void change_scene(Objects& all, Input& input) {
       for (double* v : {&membrane.stiffness, &membrane.precompression, &membrane.friction, &membrane.thickness})
         *v = std::abs(input.number());
       for (int i = 0; i < 3; ++i) membrane.point[i] = input.number(), membrane.inward_normal[i] = -i % 2;
-      told(punctura_scene_add_membrane(all.scene, &membrane));
+      checked(punctura_scene_add_membrane(all.scene, &membrane));
       break;
     }
     case 5: demand(punctura_scene_unusual(all.scene) != nullptr); break;
-    default: told(punctura_scene_check(all.scene));
+    default: checked(punctura_scene_check(all.scene));
   }
 }
 
@@ -191,7 +191,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool lines = input.byte() % 2 == 1;
   const std::string text = input.text();
   const auto read = lines ? punctura_scene_from_values : punctura_scene_from_toml;
-  if (told(read(text.data(), text.size(), &all.scene)) != PUNCTURA_OK) return demand(all.scene == nullptr), 0;
+  if (checked(read(text.data(), text.size(), &all.scene)) != PUNCTURA_OK) return demand(all.scene == nullptr), 0;
   all.insertion.renew(all.scene);
   all.servo.renew(all.scene, static_cast<const punctura_limits*>(nullptr));
   punctura_servo_arm(all.servo.object);

@@ -30,7 +30,7 @@ class Estimator {
   }
 
   /// Whether a message is due: four times a second, and after a puncture.
-  bool due() const noexcept { return !found_.empty() || !(now_ >= told_ && now_ - told_ < 0.25); }
+  bool due() const noexcept { return !found_.empty() || !(now_ >= reported_ && now_ - reported_ < 0.25); }
 
   void write(Json& json) {
     const LiveReading& r = live_.reading();
@@ -43,7 +43,7 @@ class Estimator {
     json.key("found").open('[');
     for (const auto& [tick, depth] : found_) json.open('{').field("tick", tick).field("depth", depth).close('}');
     json.close(']').close('}');
-    told_ = now_;
+    reported_ = now_;
     found_.clear();
   }
 
@@ -64,7 +64,7 @@ class Estimator {
     double tick, depth;
   };
   std::vector<Found> found_;
-  double now_ = 0, told_ = std::numeric_limits<double>::infinity();  // no message yet
+  double now_ = 0, reported_ = std::numeric_limits<double>::infinity();  // no message yet
 };
 
 }  // namespace punctura::live

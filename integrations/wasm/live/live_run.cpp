@@ -119,7 +119,7 @@ const std::vector<std::byte>& LiveRun::advance(std::size_t count) {
     if (std::exchange(trips_, false)) sample.position[0] = nothing;
     plant_.step(tick(sample), desired);
   }
-  return told(count);
+  return frame(count);
 }
 
 const std::vector<std::byte>& LiveRun::feed(const Vector3d& position, const Vector3d& axis) {
@@ -129,7 +129,7 @@ const std::vector<std::byte>& LiveRun::feed(const Vector3d& position, const Vect
   sample.position = to_array(position);
   sample.axis = to_array(axis);
   tick(sample);
-  return told(1);
+  return frame(1);
 }
 
 DeviceSample LiveRun::reading() {
@@ -157,7 +157,7 @@ double LiveRun::thumb_depth() noexcept {
   return thumb_;
 }
 
-const std::vector<std::byte>& LiveRun::told(std::size_t count) {
+const std::vector<std::byte>& LiveRun::frame(std::size_t count) {
   frame_.clear();
   if (count == 0) return frame_;
   watch_axis(block_.back());

@@ -73,7 +73,7 @@ class LiveRun {
   DeviceSample reading();
   Vector3d tick(DeviceSample sample);
   double thumb_depth() noexcept;
-  const std::vector<std::byte>& told(std::size_t count);
+  const std::vector<std::byte>& frame(std::size_t count);
   void watch(const Snapshot& snapshot);
   void watch_axis(const Snapshot& snapshot);
   Json& message();

@@ -11,10 +11,10 @@ FleetLanes::FleetLanes(std::size_t membranes) {
 FleetLanes::~FleetLanes() = default;
 
 FleetBlock::FleetBlock(const FleetSetup& setup) : LaneTrials(true, width(*setup.code)), setup_(setup) {
-  const Vector3d told = setup.axis.stableNormalized();
+  const Vector3d axis = setup.axis.stableNormalized();
   for (SceneBlock::Inputs& inputs : block_->inputs) {
-    inputs.told_axis = told;
-    inputs.axis = told.stableNormalized();  // as the servo step does
+    inputs.sample_axis = axis;
+    inputs.axis = axis.stableNormalized();  // as the servo step does
   }
 }
 
@@ -69,20 +69,20 @@ void FleetBlock::step(const double* speed, std::size_t ticks) {
       trial.alone->step(speed[i], ticks);
       continue;
     }
-    std::get<Steered>(lanes_[trial.lane].motion).steer(speed[i] * block_->inputs[0].told_axis);
+    std::get<Steered>(lanes_[trial.lane].motion).steer(speed[i] * block_->inputs[0].sample_axis);
     some = true;
   }
   if (!some) return;
-  std::uint64_t strange = 0;
+  std::uint64_t invalid = 0;
   for (std::size_t done = 0; done < ticks; done += scene_ticks) {
     const std::size_t now = std::min(scene_ticks, ticks - done);
     for (const Trial& trial : trials_)
       if (!trial.alone) fill(trial.lane, trial.history.ticks - ticks + done, now);
     state_->step(now);
-    strange |= state_->record().strange;
+    invalid |= state_->record().invalid;
   }
   for (Trial& trial : trials_)
-    if (!trial.alone && (strange >> trial.lane & 1u) != 0) trial.alone = make(trial.history);
+    if (!trial.alone && (invalid >> trial.lane & 1u) != 0) trial.alone = make(trial.history);
 }
 
 std::unique_ptr<FleetTrial> FleetBlock::make(const TrialHistory& history) const {

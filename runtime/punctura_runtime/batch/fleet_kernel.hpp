@@ -37,7 +37,7 @@ class FleetVectors final : public FleetLanes {
   }
 
   void step(std::size_t ticks) noexcept override {
-    record_.strange = 0;
+    record_.invalid = 0;
     for (std::size_t i = 0; i * V::lanes < block_.trials; ++i) advance(vectors_[i], i * V::lanes, ticks);
   }
 
@@ -49,7 +49,7 @@ class FleetVectors final : public FleetLanes {
     lanes.prepare(ticks);
     for (std::size_t k = 0; k < ticks; ++k) {
       lanes.step(k);
-      force = -same<V>(block_.inputs[k].told_axis).dot(lanes.force());
+      force = -same<V>(block_.inputs[k].sample_axis).dot(lanes.force());
       lowest = min(lowest, force);
       highest = max(highest, force);
       for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -58,11 +58,11 @@ class FleetVectors final : public FleetLanes {
     force.store(record_.force.of + start);
     lowest.store(record_.lowest_force.of + start);
     highest.store(record_.highest_force.of + start);
-    same<V>(block_.inputs[0].told_axis)
+    same<V>(block_.inputs[0].sample_axis)
         .dot(lanes.measured() - at<V>(block_.place, start))
         .store(record_.travel.of + start);
     for (std::size_t i = 0; i < lanes.size(); ++i) lanes.tick(i).depth.store(record_.depth[i].of + start);
-    record_.strange |= static_cast<std::uint64_t>(lanes.strange().bits()) << start;
+    record_.invalid |= static_cast<std::uint64_t>(lanes.invalid().bits()) << start;
   }
 
   SceneBlock& block_;

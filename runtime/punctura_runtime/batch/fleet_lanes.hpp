@@ -11,7 +11,7 @@ namespace punctura::batch {
 struct FleetRecord {
   LaneNumbers force, lowest_force, highest_force, travel;
   std::vector<LaneNumbers> depth, deepest;  ///< of each membrane
-  std::uint64_t strange = 0;                ///< bits of the lanes whose results are void
+  std::uint64_t invalid = 0;                ///< bits of the lanes whose results are void
 };
 
 /// The state of the trials of a block between two steps.

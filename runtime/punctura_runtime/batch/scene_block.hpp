@@ -64,8 +64,8 @@ class RunOwner {
   virtual Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept = 0;
   /// See BasicRunSummary. axis: of the sample.
   virtual double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept = 0;
-  /// A lane has made its last tick. strange: something happened that lanes do not compute, so its numbers are void.
-  virtual void ended(std::size_t lane, bool strange, const RunNumbers& run,
+  /// A lane has made its last tick. invalid: something happened that lanes do not compute, so its numbers are void.
+  virtual void ended(std::size_t lane, bool invalid, const RunNumbers& run,
                      std::span<const MembraneNumbers> membranes) noexcept = 0;
   /// The forces of the model are in SceneBlock::force.
   virtual void keep(std::size_t tick, std::size_t ticks) noexcept = 0;
@@ -100,7 +100,7 @@ struct SceneBlock {
   LaneNumbers makes_stroke;
   struct Inputs {
     LaneVectors position, velocity;  ///< desired by the hand; without a hand, position is the given one
-    Vector3d told_axis, axis;        ///< of the sample, and as the model uses it
+    Vector3d sample_axis, axis;      ///< of the sample, and as the model uses it
   };
   std::array<Inputs, scene_ticks> inputs;
   std::array<LaneVectors, scene_ticks> force;

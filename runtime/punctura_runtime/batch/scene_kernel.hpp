@@ -63,7 +63,7 @@ class SceneVector {
 
  private:
   void step(std::size_t k) noexcept {
-    axis_ = block_.inputs[k].told_axis;
+    axis_ = block_.inputs[k].sample_axis;
     lanes_.step(k);
     summary_.add(
         {lanes_.time(), lanes_.tip(), same<V>(axis_), lanes_.model_force(), lanes_.force(), lanes_.limited()}, *this,
@@ -93,7 +93,7 @@ class SceneVector {
       };
       for (std::size_t i = 0; i < lanes_.size(); ++i) membranes[i] = summary_.membrane(i, pick);
       const double period = block_.period.of[start_ + lane];
-      owner_.ended(start_ + lane, (lanes_.strange().bits() >> lane & 1u) != 0,
+      owner_.ended(start_ + lane, (lanes_.invalid().bits() >> lane & 1u) != 0,
                    summary_.numbers(static_cast<double>(tick), period, pick), {membranes, lanes_.size()});
     }
     next_end_ = ends(tick + 1);

@@ -1,7 +1,7 @@
 // One tick of some trials of a scene, in lanes: conditioning and model, and with a simulated hand also plant and force
 // limits, as Experiment has them.
 //
-// A fault never happens here. A lane that comes near one is marked as strange, and its trial is computed again alone.
+// A fault never happens here. A lane that comes near one is marked as invalid, and its trial is computed again alone.
 #pragma once
 
 #include <algorithm>
@@ -110,7 +110,7 @@ class SceneLanes {
     renew(limiter_, Limiter({}, number(block_.period)));
     limiter_.set_spent(select(lanes, V(0), spent));
     // A lane makes one step of the plant in a period: very stiff grips need more.
-    strange_ = (strange_ && !lanes) || number(block_.tip_steps) > 1;
+    invalid_ = (invalid_ && !lanes) || number(block_.tip_steps) > 1;
     active_ = active_ && !lanes;
     for (State& state : states_) restart(state, lanes);
     params_.clear();
@@ -146,7 +146,7 @@ class SceneLanes {
     Vector measured = at<V>(inputs.position, start_);
     if (block_.has_hand) {
       measured = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
-      strange_ = strange_ || !gate_.step(measured, time);
+      invalid_ = invalid_ || !gate_.step(measured, time);
     }
     measured_ = measured;
 
@@ -160,7 +160,7 @@ class SceneLanes {
       model_force_ += ticks_[i].force;
       outside = outside && ticks_[i].phase == Phase::outside;
     }
-    strange_ = strange_ || !(model_force_.maxAbs() <= 1e100);
+    invalid_ = invalid_ || !(model_force_.maxAbs() <= 1e100);
     if (block_.has_hand) {
       limiter_.reset(outside && !active_);
       active_ = active_ || outside;
@@ -183,7 +183,7 @@ class SceneLanes {
   const SpaceTick<V>& tick(std::size_t i) const noexcept { return ticks_[i]; }  ///< at membrane i
   std::size_t size() const noexcept { return ticks_.size(); }                   ///< the number of membranes
   /// The lanes that have come near a fault since they started. Their results are void.
-  const Truth& strange() const noexcept { return strange_; }
+  const Truth& invalid() const noexcept { return invalid_; }
 
  private:
   using Law = SpaceLaw<V>;
@@ -274,7 +274,7 @@ class SceneLanes {
   BasicTremor<V> tremor_{typename BasicTremor<V>::Filter{}};
   LowPass<V, Vector> low_pass_ = LowPass<V, Vector>::of_gain(Truth(true), V(0));
   Vector measured_{}, conditioned_{}, model_force_{}, force_{};
-  Truth strange_{false}, active_{false};
+  Truth invalid_{false}, active_{false};
   V time_{0};
   BasicInputGate<V> gate_;
   Limiter limiter_;

@@ -46,10 +46,10 @@ void SceneTrials::prepare(std::size_t tick, std::size_t ticks) noexcept {
   const auto* given = std::get_if<Positions>(&all_.motion);
   for (std::size_t k = 0; k < ticks; ++k) {
     SceneBlock::Inputs& to = block_->inputs[k];
-    to.told_axis =
+    to.sample_axis =
         given ? Vector3d(given->axis + static_cast<std::ptrdiff_t>(tick + k) * given->axis_stride) : all_.axis;
-    to.told_axis = to.told_axis.stableNormalized();
-    to.axis = given ? to.told_axis : to.told_axis.stableNormalized();  // as the servo step does
+    to.sample_axis = to.sample_axis.stableNormalized();
+    to.axis = given ? to.sample_axis : to.sample_axis.stableNormalized();  // as the servo step does
   }
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) fill(lane, tick, ticks);
 }
@@ -62,10 +62,10 @@ double SceneTrials::through(std::size_t membrane, std::size_t lane, const Vector
   return wall_of(membrane, lane).through(axis);
 }
 
-void SceneTrials::ended(std::size_t lane, bool strange, const RunNumbers& run,
+void SceneTrials::ended(std::size_t lane, bool invalid, const RunNumbers& run,
                         std::span<const MembraneNumbers> membranes) noexcept {
   const std::size_t i = index_[lane];
-  if (strange) return alone_.push_back(i);
+  if (invalid) return alone_.push_back(i);
   results_.runs[i] = run;
   results_.runs[i].in_lanes = true;
   std::copy(membranes.begin(), membranes.end(),

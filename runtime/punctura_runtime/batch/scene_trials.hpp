@@ -31,7 +31,7 @@ class SceneTrials final : public LaneTrials, public RunOwner {
   void prepare(std::size_t tick, std::size_t ticks) noexcept override;
   Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept override;
   double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept override;
-  void ended(std::size_t lane, bool strange, const RunNumbers& run,
+  void ended(std::size_t lane, bool invalid, const RunNumbers& run,
              std::span<const MembraneNumbers> membranes) noexcept override;
   void keep(std::size_t tick, std::size_t ticks) noexcept override;
   bool stopped() const noexcept override { return stop_; }

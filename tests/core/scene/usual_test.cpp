@@ -9,14 +9,14 @@ using namespace punctura::test;
 
 TEST_CASE("a usual scene has no unusual number") { CHECK(unusual(paper_scene()).empty()); }
 
-TEST_CASE("a number that is off by a factor of 1,000 is told with what to write") {
+TEST_CASE("a number that is off by a factor of 1,000 is reported with what to write") {
   auto scene = paper_scene();
   scene.needle.diameter = 1.08;
   scene.membranes[0].membrane.stiffness = 0.57;
-  const auto told = unusual(scene);
-  REQUIRE(told.size() == 2);
-  CHECK(told[0] == "needle.diameter = 1.08 m is unusual. If you meant 1.08 mm, write 0.00108");
-  CHECK(told[1] == "membrane[0].stiffness = 0.57 N/m is unusual. If you meant 0.57 N/mm, write 570");
+  const auto lines = unusual(scene);
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0] == "needle.diameter = 1.08 m is unusual. If you meant 1.08 mm, write 0.00108");
+  CHECK(lines[1] == "membrane[0].stiffness = 0.57 N/m is unusual. If you meant 0.57 N/mm, write 570");
 }
 
 TEST_CASE("what to write is in the unit of the number") {

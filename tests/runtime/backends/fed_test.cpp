@@ -171,16 +171,16 @@ TEST_CASE("the run reports whether the feeding thread got, was refused, or never
   feed_twice();
   CHECK(device.statements().back().find("make_realtime()") != std::string::npos);
 
-  std::vector<std::string> said;
+  std::vector<std::string> lines;
   std::thread([&] {
-    said = device.make_realtime({80, 0, false, false});
+    lines = device.make_realtime({80, 0, false, false});
     feed_twice();
   }).join();
-  REQUIRE(said.size() == 2);  // priority and processor
-  for (const std::string& line : said) CHECK(line.find("granted") != std::string::npos);
+  REQUIRE(lines.size() == 2);  // priority and processor
+  for (const std::string& line : lines) CHECK(line.find("granted") != std::string::npos);
   const auto all = device.statements();
   REQUIRE(all.size() == 3);
-  CHECK(std::equal(said.begin(), said.end(), all.begin()));
+  CHECK(std::equal(lines.begin(), lines.end(), all.begin()));
   CHECK(all.back().find("fed at") == 0);
 }
 

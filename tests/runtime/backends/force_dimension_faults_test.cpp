@@ -59,8 +59,8 @@ TEST_CASE("after each fault of the device its force is zero within 10 ms and sta
       check_ended(rig);
       CHECK(rig.loop.latest().fault == c.fault);
       CHECK(rig.device->finished() == c.ends);
-      const std::string said = rig.device->trouble();
-      CHECK_MESSAGE(said.find(c.words) < said.size() + (*c.words ? 0 : 1), said);
+      const std::string trouble = rig.device->trouble();
+      CHECK_MESSAGE(trouble.find(c.words) < trouble.size() + (*c.words ? 0 : 1), trouble);
 
       // The force stays zero even after a reset of the loop's fault, outside and armed.
       if (c.fault != Fault::device || (rate > 1600 && c.what != fake_drd::press_button)) continue;

@@ -187,10 +187,10 @@ TEST_CASE("a device reports the data of its library and its maker") {
   omega.start();
   omega.run(0.01);
   CHECK(omega.loop.latest().sample.axis == std::array<double, 3>{0, 0, -1});
-  const auto said = omega.device->statements();
-  CHECK(std::any_of(said.begin(), said.end(),
+  const auto statements = omega.device->statements();
+  CHECK(std::any_of(statements.begin(), statements.end(),
                     [](const auto& s) { return s.find("simulated libraries only") < s.size(); }));
-  CHECK(std::any_of(said.begin(), said.end(), [](const auto& s) { return s.find("no wrist") < s.size(); }));
+  CHECK(std::any_of(statements.begin(), statements.end(), [](const auto& s) { return s.find("no wrist") < s.size(); }));
   omega.stop();
 
   settings.system_type = 60;
@@ -212,8 +212,8 @@ TEST_CASE("a slow device ticks at its own possible rate, and T follows") {
   CHECK(rig.loop.latest().force[1] > 0.2);
   CHECK(rig.loop.scene().servo.rate == rig.device->info().rate);
   CHECK(rig.device->missed() <= 1);
-  const auto said = rig.device->statements();
-  CHECK(std::any_of(said.begin(), said.end(), [](const auto& s) {
+  const auto statements = rig.device->statements();
+  CHECK(std::any_of(statements.begin(), statements.end(), [](const auto& s) {
     return s == "rate 1056 Hz, the most at which it can be read, instead of 1600 Hz";
   }));
 }
@@ -240,8 +240,9 @@ TEST_CASE("forces above the motors' limit are no fault; they are counted and rep
   rig.push_in();
   CHECK(rig.loop.latest().fault == Fault::none);
   CHECK(rig.device->saturated() > 10);
-  const auto said = rig.device->statements();
-  CHECK(std::any_of(said.begin(), said.end(), [](const auto& s) { return s.find("whole force") < s.size(); }));
+  const auto statements = rig.device->statements();
+  CHECK(std::any_of(statements.begin(), statements.end(),
+                    [](const auto& s) { return s.find("whole force") < s.size(); }));
 }
 
 TEST_CASE("a tick allocates no memory") {

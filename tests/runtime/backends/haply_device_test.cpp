@@ -202,7 +202,7 @@ TEST_CASE("with a slow service the measured rate is used; it is measured with ze
   options.rate = 400;
   const HaplyDevice paced(options);
   CHECK(paced.info().rate == 400);
-  const auto said = paced.statements();
-  CHECK(said.front() == "haply: tested against a simulated service only");
-  CHECK(said.at(1) == "the service answers 500 times a second; the rate is 400 Hz");
+  const auto statements = paced.statements();
+  CHECK(statements.front() == "haply: tested against a simulated service only");
+  CHECK(statements.at(1) == "the service answers 500 times a second; the rate is 400 Hz");
 }

@@ -14,7 +14,7 @@ namespace {
 /// The frames read from these bytes, in pieces of the given size: one letter for each frame, and the payloads.
 std::string read(const std::string& bytes, std::size_t piece, std::size_t limit = 1000) {
   FrameReader reader(limit);
-  std::string said;
+  std::string events;
   for (std::size_t at = 0; at < bytes.size();) {
     const auto space = reader.space();
     const std::size_t n = std::min({piece, space.size(), bytes.size() - at});
@@ -25,12 +25,12 @@ std::string read(const std::string& bytes, std::size_t piece, std::size_t limit 
       std::string_view payload;
       const Event event = reader.next(payload);
       if (event == Event::more) break;
-      said += "mtbPpcXL"[static_cast<int>(event)];
-      if (event == Event::broken || event == Event::too_big) return said;
-      said += std::string(payload) + ";";
+      events += "mtbPpcXL"[static_cast<int>(event)];
+      if (event == Event::broken || event == Event::too_big) return events;
+      events += std::string(payload) + ";";
     }
   }
-  return said;
+  return events;
 }
 
 std::string all_sizes(const std::string& bytes, std::size_t limit = 1000) {

@@ -72,9 +72,9 @@ TEST_CASE("after every fault the motors' force is zero within 10 ms and stays ze
     CHECK_FALSE(any);
     CHECK(t.loop->latest().fault == trouble.latched);
     CHECK(t.loop->latest().force == zero);
-    const std::string said = t.device->trouble();
-    CHECK(said.empty() == (trouble.latched != Fault::device));
-    CHECK_MESSAGE(said.find(trouble.words) != std::string::npos, said);
+    const std::string text = t.device->trouble();
+    CHECK(text.empty() == (trouble.latched != Fault::device));
+    CHECK_MESSAGE(text.find(trouble.words) != std::string::npos, text);
     t.loop->stop();
     CHECK(held_force() == zero);
     CHECK(fake_hd().operations() == 0);

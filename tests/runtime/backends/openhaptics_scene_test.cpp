@@ -58,7 +58,7 @@ TEST_CASE("the HD device gets the forces of the core at the same positions, bit 
   for (double rate : {1600.0, 1000.0, 2000.0}) {
     const Run r = run(rate, false);
     ServoStep offline = build(r.scene, {}, r.limits);
-    bool same = true, felt = true, told = true;
+    bool same = true, felt = true, recorded = true;
     for (std::size_t k = 0; k < r.snapshots.size(); ++k) {
       const Snapshot& live = r.snapshots[k];
       if (live.commands & command_arm) offline.arm();
@@ -67,12 +67,12 @@ TEST_CASE("the HD device gets the forces of the core at the same positions, bit 
       const auto& record = r.log[k];
       for (std::size_t i = 0; i < 3; ++i) {
         felt = felt && record.force[i] == live.force[i];
-        told = told && live.sample.position[i] == 1e-3 * record.position[i];
+        recorded = recorded && live.sample.position[i] == 1e-3 * record.position[i];
       }
     }
     CHECK(same);
     CHECK(felt);
-    CHECK(told);
+    CHECK(recorded);
     CHECK(largest_force(r) > 0.5);
     CHECK(r.snapshots.back().fault == Fault::none);
   }

@@ -55,11 +55,11 @@ TEST_CASE("macOS gets the loop's period, clamped to the accepted range") {
   CHECK(os::TimeConstraint::of(at_1600.period).period == 625'000);
   CHECK(os::TimeConstraint::of(1e-3).period == 1'000'000);
   for (const double rate : {10.0, 100.0, 1000.0, 4000.0, 20'000.0, 100'000.0}) {
-    const auto told = os::TimeConstraint::of(1 / rate);
+    const auto thread = os::TimeConstraint::of(1 / rate);
     CAPTURE(rate);
-    CHECK(told.computation >= 50'000);
-    CHECK(told.constraint >= told.computation);
-    CHECK(told.constraint <= std::max<std::int64_t>(told.period / 2, told.computation));
+    CHECK(thread.computation >= 50'000);
+    CHECK(thread.constraint >= thread.computation);
+    CHECK(thread.constraint <= std::max<std::int64_t>(thread.period / 2, thread.computation));
   }
 }
 
