@@ -214,7 +214,7 @@ use_it() {
 step_instructions() { python benchmarks/instructions.py --check; }
 
 # A sixteenth of the random cases; the step `statistics` draws all of them.
-step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/16}" python_tests -n 4 --dist loadgroup; }
+step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/16}" python_tests -n 3 --dist loadgroup; }
 python_tests() {
   local but=()
   if ! has_siconos; then
@@ -272,26 +272,19 @@ docs_snippets() {
   PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets \
     tests/docs README.md CONTRIBUTING.md examples/README.md docs
 }
-docs_site() { python docs/site/build.py; }
-
-# Runs every example, each in its own folder.
-step_examples() {
-  compile dev || return
-  mkdir -p build/examples/cpp build/examples/python && side_by_side examples_cpp examples_python
+docs_site() {
+  # The step before has compiled the examples.
+  case " $(echo $steps) " in *" examples "*) export PUNCTURA_EXAMPLES=$root/build/dev/examples ;; esac
+  python docs/site/build.py
 }
-examples_cpp() {
+
+# Runs every example in C++. The gallery of the documentation runs those in Python, and draws their results.
+step_examples() {
   local example
-  cd build/examples/cpp || return
+  compile dev && mkdir -p build/examples && cd build/examples || return
   for example in "$root"/examples/cpp/*.cpp; do
     example=$(basename "$example" .cpp)
     echo "examples/cpp/$example.cpp" && "$root/build/dev/examples/$example" || return
-  done
-}
-examples_python() {
-  local example
-  cd build/examples/python || return
-  for example in "$root"/examples/python/*.py; do
-    echo "${example#"$root"/}" && python "$example" || return
   done
 }
 

@@ -67,15 +67,22 @@ def run_python(path: Path) -> Run:
 
 
 def run_cpp(path: Path, folder: Path) -> Run:
-    program = (folder / path.stem).resolve()
+    """Runs an example that ./test has compiled (PUNCTURA_EXAMPLES: in which folder), or compiles it here."""
+    built = Path(os.environ.get("PUNCTURA_EXAMPLES", folder), path.stem)
+    program = built if built.exists() else compiled(path, (folder / path.stem).resolve())
+    with TemporaryDirectory() as own:  # for the files that it writes
+        output = subprocess.run([program], check=True, capture_output=True, text=True, cwd=own).stdout
+    if program is not built:
+        program.unlink()
+    return Run({}, output, [])
+
+
+def compiled(path: Path, program: Path) -> Path:
     command = [os.environ.get("CXX", "c++"), "-std=c++20", "-ffp-contract=off", f"-I{ROOT / 'core'}", path]
     if "punctura_runtime" in path.read_text(encoding="utf-8"):
         command += [f"-I{RUNTIME}", "-pthread", *(RUNTIME / "punctura_runtime" / source for source in SOURCES)]
     subprocess.run([*command, "-o", program, "-ldl"], check=True)
-    with TemporaryDirectory() as own:  # for the files that it writes
-        output = subprocess.run([program], check=True, capture_output=True, text=True, cwd=own).stdout
-    program.unlink()
-    return Run({}, output, [])
+    return program
 
 
 def depth_and_force(axes: Axes, depth: Any, force: Any, style: str = "-") -> None:

@@ -142,6 +142,7 @@ def test_plain_text_stays_plain_text_in_the_site():
     ]
 
 
-def test_every_numbered_example_has_a_picture():
-    stems = {path.stem for path in gallery.EXAMPLES.glob("*/[0-9][0-9]_*.*")}
+def test_every_example_has_a_picture():
+    """The gallery runs what it draws, so it runs each example in Python; ./test examples runs those in C++."""
+    stems = {path.stem for path in gallery.EXAMPLES.glob("*/*") if path.suffix in (".py", ".cpp")}
     assert stems == set(gallery.PICTURES)
