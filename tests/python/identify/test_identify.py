@@ -6,6 +6,7 @@ import os
 import threading
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import punctura as pn
@@ -50,6 +51,16 @@ def test_the_truth_of_a_synthetic_trace_is_found():
         width = estimate.high - estimate.low
         assert estimate.low - width / 2 < value < estimate.high + width / 2, name
     assert any("second time" in text for text in found.verdicts)
+
+
+@pytest.mark.parametrize("size", [1e-3, 800.0])  # a microneedle, and a trocar of 500 N
+def test_a_force_of_any_size_gives_the_same_membranes(size):
+    made = trace(noise=0.01)
+    found = identify(replace(made, force=made.force * size), NEEDLE, membranes=1)
+    for estimate, usual in zip(found.estimates, identify(made, NEEDLE, membranes=1).estimates, strict=True):
+        factor = size if estimate.unit in ("N", "N/m") else 1
+        numbers = (estimate.value, estimate.low, estimate.high)
+        assert numbers == pytest.approx(np.multiply((usual.value, usual.low, usual.high), factor), rel=0.02), usual.name
 
 
 def test_without_a_withdrawal_the_verdict_asks_for_one():
