@@ -17,6 +17,7 @@ LASTS = 3  # samples, that a departure lasts at least
 NOISES, SHARE = 8.0, 0.03  # a departure is larger than so many times the noise, and this share of the greatest force
 FIRM = 0.5  # of the greatest force: so much only tissue resists
 NEAR = 0.02  # of the range of the depths
+STEEP = 0.5  # of the slope behind the contact: in air the force does not rise so
 AROUND = 5  # times the samples of the first rise: the samples before it in which the contact is looked for
 
 
@@ -85,9 +86,18 @@ def contact_sample(depth: Array, force: Array, after: Array | None = None) -> in
         used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
         tried = used[:: max(1, len(used) // 100)]
         best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
-        if best >= FEWEST:
+        if best >= FEWEST and not _rises(depth[: best + 1], force[: best + 1], depth[best:top], force[best:top], noise):
             return best
     return None
+
+
+def _rises(depth: Array, force: Array, depth_behind: Array, force_behind: Array, noise: float) -> bool:
+    """Whether the force (n,) before a contact rises with the depth as it does behind it: then it is no air."""
+    way, rest = float(np.ptp(depth)), float(np.ptp(depth_behind))
+    if len(force_behind) < FEWEST or not min(way, rest) > 0:
+        return False
+    slope, behind = (float(np.polyfit(*both, 1)[0]) for both in ((depth, force), (depth_behind, force_behind)))
+    return slope * np.sign(behind) > max(STEEP * abs(behind), NOISES * max(noise, noise_of(force)) / way)
 
 
 def _without_spikes(force: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
-from punctura.trace.samples import cut_off, gaps_and_spikes, nothing_seen
+from punctura.trace.samples import cut_off, gaps, nothing_seen, without_spikes
 from punctura.trace.segment import Segments, segment
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -28,8 +28,10 @@ def examine(trace: Trace) -> Trace:
     nothing = nothing_seen(trace)
     if nothing:
         return replace(trace, findings=(*trace.findings, *nothing))
-    found: list[Finding] = []
+    trace, found = without_spikes(trace)
     if trace.depth[0] - trace.depth.min() > 2 * (trace.depth.max() - trace.depth[0]):
+        if _only_withdrawn(trace.force):
+            return replace(trace, findings=(*trace.findings, *found, _NO_INSERTION))
         trace = replace(trace, depth=-trace.depth)
         found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
     segments = segment(trace)
@@ -40,16 +42,35 @@ def examine(trace: Trace) -> Trace:
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
         )
+    air, where = np.empty(0), "before contact"
     if going_in is not None and segments.contact is not None and segments.contact >= going_in.start:
-        before = trace.force[going_in.start : segments.contact + 1]
-        zero, height = float(np.median(before)), float(np.max(np.abs(trace.force - np.median(before))))
+        air = trace.force[going_in.start : segments.contact + 1]
+    elif segments.exit is not None:
+        air, where = trace.force[segments.exit :], "after the needle has left the tissue"
+    if len(air):
+        zero, height = float(np.median(air)), float(np.max(np.abs(trace.force - np.median(air))))
         if abs(zero) > max(_SMALL * height, 3 * noise_of(trace.force)):
             trace = replace(trace, force=trace.force - zero)
             segments = segment(trace)
-            found.append(Finding("offset", f"the force is {zero:.3g} N before contact; this is subtracted", True))
-    found += [*_units(trace), *gaps_and_spikes(trace), *cut_off(trace), *_drift(trace, segments)]
+            found.append(Finding("offset", f"the force is {zero:.3g} N {where}; this is subtracted", True))
+    found += [*_units(trace), *gaps(trace), *cut_off(trace), *_drift(trace, segments)]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
     return replace(trace, findings=(*trace.findings, *found))
+
+
+_NO_INSERTION = Finding(
+    "no_insertion",
+    "the depth falls all the way, and the force is gone at its end: this is a withdrawal; record the insertion, too. "
+    "If the depth counts down while the needle goes in, begin in air, where the force is zero",
+    severe=True,
+)
+
+
+def _only_withdrawn(force: Array) -> bool:
+    """Whether a force (n,), N, that is measured on one way ends in air, and does not begin there."""
+    begin, end = abs(baseline(force)), abs(baseline(force[::-1]))
+    height = float(np.max(np.abs(force)))
+    return end < max(_SMALL * height, 2 * noise_of(force)) < 0.3 * begin
 
 
 def _pushed(force: Array) -> bool:

@@ -19,6 +19,7 @@ Array = NDArray[Any]
 
 DIGITS = 1e-9  # of the range of the values: differences as small are of the computer
 OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
+FEW = 0.05  # of the samples: so many spikes may be left out
 FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
 
 
@@ -75,21 +76,30 @@ def nothing_seen(trace: Trace) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def gaps_and_spikes(trace: Trace) -> Iterator[Finding]:
-    """Stretches without samples, and single samples that no tissue makes."""
+def without_spikes(trace: Trace) -> tuple[Trace, list[Finding]]:
+    """The trace without single samples that no tissue makes, and what is said of them."""
+    force = trace.force
+    rise, fall = force[1:-1] - force[:-2], force[1:-1] - force[2:]
+    alone = np.where((rise > 0) == (fall > 0), np.minimum(np.abs(rise), np.abs(fall)), 0.0)
+    usual = float(np.subtract(*np.percentile(force, (95, 5))))
+    spikes = np.flatnonzero(alone > max(0.5 * usual, 12 * noise_of(force))) + 1
+    if not len(spikes):
+        return trace, []
+    text = f"samples that stand out from both neighbours: {len(spikes)}, by up to {alone.max():.3g} N"
+    text += f"; the first is sample {int(spikes[0]) + 1}"
+    if len(spikes) > FEW * len(trace):
+        return trace, [Finding("spikes", f"{text}. Look for a loose contact, or choose another column for the force")]
+    kept = np.delete(np.arange(len(trace)), spikes)
+    return trace[kept], [Finding("spikes", f"{text}; they are left out", True)]
+
+
+def gaps(trace: Trace) -> Iterator[Finding]:
+    """Stretches without samples."""
     if trace.time is not None:
         steps = np.diff(trace.time)
         if steps.max() > max(20 * float(np.median(steps)), 5e-3 * float(np.ptp(trace.time))):
             text = f"no samples for {steps.max():.3g} s behind sample {int(np.argmax(steps)) + 1}"
             yield Finding("gap", f"{text}; what the needle did there is not known, so the fit can be wrong")
-    force = trace.force
-    rise, fall = force[1:-1] - force[:-2], force[1:-1] - force[2:]
-    alone = np.where((rise > 0) == (fall > 0), np.minimum(np.abs(rise), np.abs(fall)), 0.0)
-    usual = float(np.subtract(*np.percentile(force, (95, 5))))
-    spikes = np.flatnonzero(alone > max(0.5 * usual, 12 * noise_of(force)))
-    if len(spikes):
-        text = f"samples that stand out from both neighbours: {len(spikes)}, by up to {alone.max():.3g} N"
-        yield Finding("spikes", f"{text}; the first is sample {int(spikes[0]) + 2}. Leave them out")
 
 
 def cut_off(trace: Trace) -> Iterator[Finding]:

@@ -234,6 +234,36 @@ def test_no_withdrawal_and_no_pop_are_named(tmp_path):
     assert kinds(read) == {"no_withdrawal", "no_pop"}
 
 
+def test_a_withdrawal_alone_is_no_insertion_with_a_reversed_depth(tmp_path):
+    made = trace()
+    out = made[int(np.argmax(made.depth)) + 100 :]  # from within the rest on
+    [finding] = read_trace(write_csv(tmp_path / "a.csv", columns_of(out))).findings
+    assert finding.kind == "no_insertion" and finding.severe
+    into = made[: int(np.argmax(made.depth))]
+    for force in (into.force, -into.force, into.force + 1.0):
+        read = read_trace(write_csv(tmp_path / "b.csv", columns_of(into, depth_mm=-1e3 * into.depth, force_N=force)))
+        assert "reversed_depth" in kinds(read) and read.force.max() == pytest.approx(made.force.max(), abs=0.05)
+
+
+@pytest.mark.parametrize("zero", [0.0, 0.5])
+def test_a_trace_that_begins_in_the_tissue_has_its_zero_behind_it(tmp_path, zero):
+    made = trace()
+    late = made[int(np.argmax(made.depth > 5.5e-3)) :]
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(late, force_N=late.force + zero)))
+    assert kinds(read) == ({"no_contact", "offset"} if zero else {"no_contact"})
+    assert read.force == pytest.approx(late.force, abs=0.01)
+
+
+def test_spikes_are_left_out_and_hide_no_pop(tmp_path):
+    made = trace()
+    force = made.force.copy()
+    force[[300, 700]] += (9.0, -7.0)
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made, force_N=force)))
+    [finding] = read.findings
+    assert finding.kind == "spikes" and finding.repaired and "2, by up to" in finding.text
+    assert read.force == pytest.approx(np.delete(made.force, [300, 700]))
+
+
 def test_a_digitised_curve_is_sorted_on_request(tmp_path):
     made = trace()[:600]
     order = np.random.default_rng(3).permutation(len(made))
