@@ -97,7 +97,7 @@ def _rises(depth: Array, force: Array, depth_behind: Array, force_behind: Array,
     if len(force_behind) < FEWEST or not min(way, rest) > 0:
         return False
     slope, behind = (float(np.polyfit(*both, 1)[0]) for both in ((depth, force), (depth_behind, force_behind)))
-    return slope * np.sign(behind) > max(STEEP * abs(behind), NOISES * max(noise, noise_of(force)) / way)
+    return bool(slope * np.sign(behind) > max(STEEP * abs(behind), NOISES * max(noise, noise_of(force)) / way))
 
 
 def _without_spikes(force: Array) -> Array:
