@@ -171,7 +171,7 @@ TEST_CASE("the ramp is not reported while the model force is zero") {
 TEST_CASE("the rms force is within the rating for limits of any size") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-2, 2);
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < at_most(50); ++i) {
     ForceLimits limits;
     limits.max_force = std::pow(10, exponent(random));
     limits.continuous_force = std::pow(10, exponent(random));

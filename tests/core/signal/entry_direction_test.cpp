@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "../support/cases.hpp"
 #include "../support/random_law.hpp"
 
 using namespace punctura;
@@ -34,7 +35,7 @@ TEST_CASE("for a fast tip, the direction is exactly the displacement of the last
 TEST_CASE("for a slow tip, the direction is that of the last 0.2 mm of path, within one degree") {
   Noise noise(40);
   const double T = 1 / 1600.0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < at_most(20); ++i) {
     EntryDirection<double> direction(T);
     std::vector<Vector3d> history;
     const double speed = between_log(noise, 1e-4, 1e-2), bend = between(noise, -3, 3);
