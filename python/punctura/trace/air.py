@@ -71,7 +71,7 @@ def contact_sample(depth: Array, force: Array, after: Array | None = None) -> in
 
     depth, force: up to the end of the first insertion. after: the forces in air behind the tissue, N, if there are any.
     Among all depths of contact c, the one with which a + b (d - c) + e (d - c)^2 behind c, and a before it, fits best
-    around the first departure.
+    around the first departure. b has the sign of the departure: a dip into noise would put c too early.
     """
     force = _without_spikes(force)
     change = 0.0 if after is None else float(np.median(after)) - baseline(force)
@@ -125,10 +125,17 @@ def _departure(force: Array, change: float = 0.0, noise: float = 0.0, share: flo
 
 
 def _hinge_errors(depth: Array, force: Array, contacts: Array) -> Array:
-    """Sum of the squared errors of the best hinge for each depth of contact (c,), N^2."""
+    """Sum of the squared errors of the best hinge for each depth of contact (c,), N^2. It leaves the air one way."""
     behind = np.maximum(depth - contacts[:, None], 0) / max(float(np.ptp(depth)), 1e-12)
-    shapes = np.stack((np.ones_like(behind), behind, behind**2), axis=1)  # (c, 3, n)
-    gram = shapes @ shapes.transpose(0, 2, 1) + 1e-12 * len(depth) * np.eye(3)
-    aim = shapes @ force
-    best = np.linalg.solve(gram, aim[:, :, None])[:, :, 0]
-    return np.asarray(np.sum((force - np.einsum("ckn,ck->cn", shapes, best)) ** 2, axis=1))
+    flat = np.ones_like(behind)
+    best, errors = _best(force, flat, behind, behind**2)
+    one_way = best[:, 1] * (force[-1] - force[0]) >= 0
+    return np.asarray(np.where(one_way, errors, _best(force, flat, behind**2)[1]))
+
+
+def _best(force: Array, *shapes: Array) -> tuple[Array, Array]:
+    """The factors of shapes (c, n) that fit a force (n,) best, for each c, and the sums of the squared errors."""
+    each = np.stack(shapes, axis=1)  # (c, k, n)
+    gram = each @ each.transpose(0, 2, 1) + 1e-12 * len(force) * np.eye(len(shapes))
+    factors = np.linalg.solve(gram, (each @ force)[:, :, None])[:, :, 0]
+    return factors, np.asarray(np.sum((force - np.einsum("ckn,ck->cn", each, factors)) ** 2, axis=1))

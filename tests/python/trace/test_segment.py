@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from punctura import Membrane
 from punctura.trace import Trace, TraceError, segment
+from punctura.trace.air import contact_sample
 from punctura.trace.findings import examine
 from punctura.trace.samples import rounding
 from punctura.trace.turns import noise_of, turning_points
@@ -80,6 +81,14 @@ def test_contact_is_where_a_soft_layer_begins_and_its_force_is_no_offset(seed):
     assert made.depth[found.contact] == pytest.approx(2e-3, abs=0.4e-3)
     assert made.force[made.depth < 1e-3].mean() == pytest.approx(0, abs=3e-3)
     assert made.depth[found.exit] < 9e-3 and np.abs(made.force[found.exit :]).max() < 5 * NOISE
+
+
+def test_noise_moves_the_contact_of_a_soft_rise_by_less_than_a_millimetre():
+    depth = np.arange(0, 12e-3, 2e-4)
+    rise = 0.1 * np.maximum(depth * 1e3 - 4, 0)  # N: 8 samples until it is well beyond the noise of 10 mN
+    noise = [np.random.default_rng(seed).normal(0, 0.01, len(depth)) for seed in range(20)]
+    found = [depth[contact_sample(depth, rise + one)] for one in noise]
+    assert np.abs(np.array(found) - 4e-3).max() < 1e-3
 
 
 def test_every_tenth_sample_gives_the_same_contact():
