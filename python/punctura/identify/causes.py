@@ -45,7 +45,8 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     air = in_air(trace, segments, fit)
     if air.sum() < FEWEST:
         return None
-    force = trace.force - float(np.median(trace.force[air]))
+    force = trace.force if trace.time is None else trace.force - fit.parameters.get("drift") * trace.time
+    force = force - float(np.median(force[air]))
     within = np.arange(len(trace))
     halves = []
     for low, high in ((begin, 0.5 * (begin + deep)), (0.5 * (begin + deep), deep)):

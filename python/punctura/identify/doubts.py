@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+import numpy as np
+
 from punctura.identify.causes import UNEVEN, Cause, both_ways, causes, way_out
 from punctura.identify.depth_noise import steady_noise
-from punctura.identify.explained import SURE, Explained, explained
+from punctura.identify.explained import MATTERS, SURE, Explained, explained
 from punctura.identify.fit import Fit
 from punctura.identify.records import ExplainedRecord
 from punctura.trace import Segments, Trace
@@ -57,7 +59,23 @@ def doubts(trace: Trace, segments: Segments, fit: Fit, extensions: Collection[st
         found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
     if not any(one.kind in UNEQUAL for one in found):
         found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
-    return Doubts(assessment, found)
+    return Doubts(assessment, (*_wall_in_air(segments, fit, assessment), *found))
+
+
+def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:
+    """A wall that the model has where the trace is in air: there, only the zero of the sensor can change."""
+    if segments.contact is None:
+        return ()
+    tissue = fit.misfit.forces(fit.parameters.with_values({"offset": 0.0, "drift": 0.0}))
+    force = float(np.mean(np.abs(tissue[: segments.contact // 2 + 1])))
+    if force < max(0.5 * assessment.noise, MATTERS * assessment.peak):
+        return ()
+    text = (
+        f"The model has {force:.2g} N of tissue in front of the contact, where the needle is in air: such a wall is a "
+        "change of the sensor's zero, and the others follow from it. To tell: let the sensor warm up, and repeat the "
+        "insertion"
+    )
+    return (Cause("wall_in_air", 0.0, text),)
 
 
 def _asymmetry(

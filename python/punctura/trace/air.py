@@ -53,14 +53,19 @@ def _first(force: Array) -> int:
 def exit_sample(depth: Array, force: Array) -> int | None:
     """The first sample in air after the last withdrawal; None if the needle does not come out.
 
-    It is out if it ends at a depth where it was in air on the way in, and if the force did not come to its last level
-    deep in the tissue.
+    It is out where it is as shallow as in the air on the way in, and the force has come to its last level. If it ends a
+    little deeper than that, the force must not have come to its last level deep in the tissue: a tip that leaves its
+    wall has little force.
     """
     force = _without_spikes(force)
     entered, left = _departure(force), _departure(force[::-1])
     if entered is None or left is None:
         return None
     surface, out = float(depth[entered[0]]), len(force) - 1 - left[0]
+    shallow = np.flatnonzero(depth[int(np.argmax(depth)) :] <= surface)
+    if len(shallow) >= FEWEST:
+        out = max(out, int(np.argmax(depth)) + int(shallow[0]))
+        return out if depth[-1] <= surface and len(force) - out >= FEWEST else None
     half_way = 0.5 * (surface + float(depth.max()))
     is_out = depth[-1] <= surface + NEAR * float(np.ptp(depth)) and depth[out] < half_way
     return out if is_out and len(force) - out >= FEWEST else None
@@ -138,4 +143,5 @@ def _best(force: Array, *shapes: Array) -> tuple[Array, Array]:
     each = np.stack(shapes, axis=1)  # (c, k, n)
     gram = each @ each.transpose(0, 2, 1) + 1e-12 * len(force) * np.eye(len(shapes))
     factors = np.linalg.solve(gram, (each @ force)[:, :, None])[:, :, 0]
-    return factors, np.asarray(np.sum((force - np.einsum("ckn,ck->cn", each, factors)) ** 2, axis=1))
+    left = force - np.einsum("ckn,ck->cn", each, factors)
+    return np.asarray(factors, np.float64), np.asarray(np.sum(left**2, axis=1))

@@ -138,6 +138,25 @@ def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless
     assert doubts(made, segment(made), left, ("set",)).causes == ()
 
 
+def test_a_drift_that_is_fitted_makes_no_asymmetric_way_out():
+    made = trace(noise=8e-3)
+    drifting = replace(made, force=made.force + 0.02 * made.time)
+    start = fitted(made).parameters
+    whole = fit(Misfit(drifting, start), (*Model(1).names, "drift"), start)
+    assert whole.parameters.get("drift") == pytest.approx(0.02, rel=0.1)
+    assert doubts(drifting, segment(drifting), whole, ()).sentences == ()
+
+
+def test_a_wall_in_air_is_named_as_a_change_of_the_zero():
+    made = trace(noise=8e-3)
+    start = fitted(made).parameters
+    far = default_membrane()
+    far[:5] = -20e-3, 100.0, 0.1, 0.1, 1e-3
+    two = replace(start, membranes=np.vstack((far, start.membranes)))
+    whole = fit(Misfit(made, two), ("offset",), two)
+    assert "wall_in_air" in [one.kind for one in doubts(made, segment(made), whole, ()).causes]
+
+
 def test_the_command_names_it_and_draws_it(punctura, tmp_path):
     made = changed(pulled(2.2))[::6]
     rows = np.column_stack([made.time, 1e3 * made.depth, made.force])
