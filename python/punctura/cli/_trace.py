@@ -65,6 +65,8 @@ def reading_of(
     """What the options state about a file. Raises typer.BadParameter."""
     from punctura.trace.reading import Reading
 
+    if speed is not None and depth_file is not None:
+        raise typer.BadParameter("gives the depth, and --depth-file, too: state one", param_hint="--speed-mm-per-s")
     return Reading(
         pairs(column, "--column", "depth=NAME", empty=True), pairs(unit, "--unit", "depth=mm"), order,
         None if decimal is None else "," if decimal == "comma" else ".", encoding, sheet,

@@ -15,6 +15,7 @@ from punctura.identify.records import ExplainedRecord
 from punctura.trace import Segments, Trace
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
+IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
 UNEQUAL = ("barbs", "asymmetric_way_out")  # causes
 
 
@@ -67,8 +68,8 @@ def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[C
     if segments.contact is None:
         return ()
     tissue = fit.misfit.forces(fit.parameters.with_values({"offset": 0.0, "drift": 0.0}))
-    force = float(np.mean(np.abs(tissue[: segments.contact // 2 + 1])))
-    if force < max(0.5 * assessment.noise, MATTERS * assessment.peak):
+    force = float(np.max(np.abs(tissue[: int(IN_AIR * segments.contact) + 1])))
+    if force < max(assessment.noise, MATTERS * assessment.peak):
         return ()
     text = (
         f"The model has {force:.2g} N of tissue in front of the contact, where the needle is in air: such a wall is a "

@@ -1,5 +1,7 @@
 """All that a trace file does not state is asked in one message, with the whole command."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import typer
@@ -49,6 +51,8 @@ def test_speeds_are_stated_as_a_list_with_times():
     for wrong in ("fast", "4@1", "4,0@5,1@5", "nan", "4,,1@2"):
         with pytest.raises(typer.BadParameter, match="mm/s, with growing times"):
             speeds(wrong)
+    with pytest.raises(typer.BadParameter, match="and --depth-file, too"):
+        reading_of(speed="4", depth_file=Path("depth.csv"))
 
 
 @pytest.mark.parametrize(
