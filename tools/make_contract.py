@@ -142,6 +142,8 @@ def messages() -> dict[str, Any]:
         {"kind": "recording", "name": "r", "rows": 1, "lost": 0, "seconds": 0.5, "trouble": ""},
         {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": goals,
          "result": "", "blind": False, "held": 1.5, "hold": 3.0, "time": 12.5, "time_limit": 60.0},
+        {"kind": "sitting", "question": 4, "sentence": "Did it pop?", "answers": [{"name": "yes", "key": "y"}],
+         "any_number": False, "covered": True, "noise": True},
         {"kind": "reply", "id": 1, "ok": False, "text": "1 problem", "problems": [problem], "data": {}},
         {"kind": "notice", "text": "Größe"},
     ]  # fmt: skip
@@ -163,6 +165,7 @@ def messages() -> dict[str, Any]:
         {"id": 15, "do": "save_exercise", "name": "mine", "tables": {"title": "Mine"}, "replace": False},
         {"id": 23, "do": "open_exercise", "name": "mine", "file": "dGl0bGU=", "replace": False},
         {"id": 16, "do": "delete_exercise", "name": "mine"},
+        {"id": 24, "do": "respond", "question": 4, "answer": "yes"},
         {"id": 12, "do": "set_expert", "exercise": "venipuncture", "recording": "r"},
     ]  # fmt: skip
     refused = [

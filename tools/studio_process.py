@@ -39,16 +39,18 @@ class StudioProcess:
         open_files: int = 0,
         terminal: int | None = None,
         more: Sequence[str] = (),
+        verb: Sequence[str] = ("run",),
     ) -> None:
         """scene: may be empty. page: folder to serve in place of the studio's page. token: default: a new one.
 
         open_files: limit of the studio's open files, on POSIX; 0 for that of this process. terminal: descriptor for its
-        standard error; log() is then empty. more: options of `punctura run`.
+        standard error; log() is then empty. more: further options. verb: another one that serves a page.
         """
         self.recordings = folder / "recordings"
-        command = [*self.program, "run", *([scene] if scene else [])]
-        command += ["--no-browser", "--device", "simulated"]
-        command += ["--port", str(port), "--recordings", str(self.recordings)] + (["--page", str(page)] if page else [])
+        command = [*self.program, *verb, *([scene] if scene else [])]
+        command += ["--no-browser", "--device", "simulated", "--port", str(port)]
+        command += ["--recordings", str(self.recordings)] if verb == ("run",) else []
+        command += ["--page", str(page)] if page else []
         command += more
         home = {"HOME": str(folder), "XDG_DATA_HOME": str(folder / "data"), "PUNCTURA_STUDIO_TOKEN": token}
         self._out, self._errors = (folder / "out.txt").open("w+"), (folder / "log.txt").open("w+")
@@ -81,6 +83,11 @@ class StudioProcess:
     def memory_mb(self) -> float:
         """Resident memory, MB; NaN if the system does not report it."""
         return resident_mb(self._process.pid)
+
+    def kill(self) -> None:
+        """Ends the studio at once, as a power cut does."""
+        self._process.kill()
+        self._process.wait()
 
     def end(self) -> int:
         """Ends the studio like Ctrl-C. Returns the exit status."""

@@ -2,6 +2,7 @@ import { faultBanner } from "./controls/fault_banner.ts";
 import { notices } from "./controls/notices.ts";
 import { placed } from "./panel.ts";
 import { viewWithSlice } from "./slice/view_with_slice.ts";
+import { sitting } from "./stage/sitting.ts";
 import { stage } from "./stage/stage.ts";
 import type { App } from "./state/app.ts";
 import { pageOf } from "./state/page.ts";
@@ -15,6 +16,7 @@ export function layout(root: HTMLElement, app: App): void {
     placed("notices", "Messages", notices, app),
   );
   stage(root, app);
+  sitting(root, app);
   loadBench(root, app);
 }
 
@@ -22,7 +24,7 @@ export function layout(root: HTMLElement, app: App): void {
 function loadBench(root: HTMLElement, app: App): void {
   let begun = false;
   const load = (needed: boolean): void => {
-    if (!needed || begun) return;
+    if (!needed || begun || app.sitting.value) return;
     begun = true;
     void import("./bench.ts").then(
       ({ bench }) => bench(root, app),
@@ -37,5 +39,6 @@ function loadBench(root: HTMLElement, app: App): void {
   app.exercise.watch((exercise) => load(exercise?.running ?? false));
   app.live.events.watch((events) => load(events.some(({ what }) => what === "pop")));
   window.addEventListener("gamepadconnected", () => load(true));
-  load(remembered("sound") === "on");
+  // The scene comes after a participant's session, in which no sound tells of a pop.
+  app.live.scene.watch((scene) => load(scene !== null && remembered("sound") === "on"));
 }

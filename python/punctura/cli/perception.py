@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from punctura.cli._notice import notice
-from punctura.cli._out import check_folder, check_place
+from punctura.cli._out import check_folder
+from punctura.cli._streams import leave, never_wait_for_stderr
 from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
@@ -74,33 +74,26 @@ def run(
     protocol: File,
     participant: Annotated[str, typer.Option(help="Pseudonym, such as P01; no name.")],
     out: Out = None,
-    device: Annotated[str, typer.Option(help="As for punctura run.", metavar="NAME")] = "simulated",
+    device: Annotated[str, typer.Option(help="As for punctura run.", metavar="NAME")] = "",
     limits: Annotated[
         Path | None, typer.Option(help="TOML file with force and input limits (docs/safety.md).", metavar="FILE")
     ] = None,
+    placement: Annotated[
+        Path | None, typer.Option(help="TOML file with the device's pose, written by punctura place.", metavar="FILE")
+    ] = None,
+    port: Annotated[int, typer.Option(help="Local TCP port of the page; 0 picks a free one.", min=0, max=65535)] = 0,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the page's address alone.")] = False,
 ) -> None:
-    """Runs a participant's session in this terminal, or the rest of it: each answered trial is on disk at once."""
-    from punctura.live import RunLimits, load_limits
+    """Runs a participant's session in the studio's page, or the rest of it: each answered trial is on disk at once."""
+    from punctura.cli._sitting import run_sitting
     from punctura.perception import load_protocol
-    from punctura.perception.terminal import Terminal, device_of, run_session
 
-    loaded, folder = load_protocol(protocol), _folder(protocol, out)
-    allowed = load_limits(limits) if limits else RunLimits()
-    terminal = Terminal(typer.echo, _ask, device_of(device), allowed)
+    never_wait_for_stderr()
+    folder = _folder(protocol, out)
     try:
-        done = run_session(loaded, folder, participant, terminal)
-    except (KeyboardInterrupt, EOFError, typer.Abort, Ended):
-        notice(f"{folder} keeps the answered trials: the same command goes on with the next one")
-        raise
-    typer.echo(f"{done} trials of {participant} are in {folder}")
-
-
-def _ask(text: str) -> str:
-    if sys.platform != "win32" and sys.stdin.isatty():
-        import termios
-
-        termios.tcflush(sys.stdin, termios.TCIFLUSH)  # what was typed before the question is no answer to it
-    return str(typer.prompt(text.rstrip(" :"), default="", show_default=False, prompt_suffix=": "))
+        run_sitting(load_protocol(protocol), folder, participant, device, limits, placement, port, not no_browser)
+    except Ended as end:
+        leave(end, f"; the force is off, and {folder} keeps the answered trials")
 
 
 @command.command()
@@ -230,20 +223,6 @@ def delete(
 
     for path in forget(_folder(protocol, out), participant):
         typer.echo(f"deleted {path}")
-
-
-@command.command()
-def noise(
-    out: Annotated[Path, typer.Option("--out", help="The file.", metavar="FILE")] = Path("noise.wav"),
-    seconds: Annotated[int, typer.Option(min=1, max=3600, help="Length; it can play in a loop.")] = 60,
-) -> None:
-    """Writes pink noise, a WAV file for headphones: it masks the sound of the motors."""
-    from punctura.files.whole_file import write_whole
-    from punctura.perception.noise import pink_noise
-
-    check_place(out, "--out")
-    write_whole(out, pink_noise(seconds))
-    typer.echo(str(out))
 
 
 def _folder(protocol: str, out: Path | None) -> Path:

@@ -10,10 +10,11 @@ from functools import partial
 from pathlib import Path
 
 from punctura import Scene
+from punctura._core import ForceLimits
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
 from punctura.perception.protocol import ANSWERS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
-from punctura.perception.stimulus import QUANTITIES, built, simulated, solved
+from punctura.perception.stimulus import QUANTITIES, built, cut_by_limits, simulated, solved
 from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
@@ -52,6 +53,16 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     if shown.problems or protocol is None:
         raise ConfigurationError(shown.problems, str(path))
     return protocol
+
+
+def check_device(protocol: Protocol, limits: ForceLimits) -> None:
+    """Raises ConfigurationError with each level that a device with these limits cannot show."""
+    asked = [(f"stimulus.levels[{i}]", one) for i, one in enumerate(protocol.stimuli)]
+    asked += [("stimulus.reference", one) for one in protocol.references[:1]]
+    asked += [("trials.catch_level", protocol.catch)] if protocol.catch else []
+    problems = [Problem(key, one.level, reason) for key, one in asked if (reason := cut_by_limits(one.scene, limits))]
+    if problems:
+        raise ConfigurationError(problems, str(protocol.path))
 
 
 def _answers(file: ProtocolFile) -> Iterator[Problem]:
@@ -105,10 +116,8 @@ def _trials(file: ProtocolFile) -> Iterator[Problem]:
     if file.method == "staircase" and kept <= guess:
         reason = f"with down = {given.down} it seeks {kept:.0%} right answers, which guessing gives; give a larger up"
         yield Problem("trials.up", given.up, reason)
-    for key in ("break_s", "interval_s"):
-        value = getattr(given, key)
-        if value is not None and not 0 < float(value) <= 3600:
-            yield Problem(f"trials.{key}", float(value), "must be more than 0 and at most 3600 s")
+    if given.break_s is not None and not 0 < float(given.break_s) <= 3600:
+        yield Problem("trials.break_s", float(given.break_s), "must be more than 0 and at most 3600 s")
 
 
 def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:

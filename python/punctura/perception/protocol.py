@@ -14,6 +14,7 @@ from punctura.files.fields import Number, Numbers, Text, WholeNumber
 from punctura.files.tables import Schema, Table
 from punctura.perception.psychometric import Shape
 from punctura.perception.stimulus import QUANTITIES, Felt
+from punctura.scene import scene_names
 
 Method = Literal["constant", "staircase", "quest", "adjustment"]
 Task = Literal["two_intervals", "three_intervals", "yes_no", "rating", "magnitude", "adjustment"]
@@ -56,7 +57,6 @@ class TrialsTable(Table):
     up: WholeNumber = 3  # steps of a staircase after a wrong answer
     down: WholeNumber = 1  # and after a right one: it stays where up/(up + down) of the answers are right
     break_s: Number | None = None  # after each block
-    interval_s: Number | None = None  # time for one stroke on a device
 
 
 class ProtocolFile(Table):
@@ -67,6 +67,8 @@ class ProtocolFile(Table):
     instruction: Text = ""  # shown at the start
     consent: Text = ""  # the participant agrees to it before the first trial
     source: Text = ""  # of the numbers
+    picture: bool = False  # whether the needle and the membranes are shown
+    noise: bool = False  # whether the page plays masking noise
     scene: Text  # a ready scene, or the path of a scene file relative to this file
     method: Method
     task: Task
@@ -113,6 +115,12 @@ class Protocol:
     def levels(self) -> tuple[float, ...]:
         """From the lowest to the highest."""
         return tuple(one.level for one in self.stimuli)
+
+    @property
+    def scene_name(self) -> str:
+        """The name of the ready scene, or the path of the scene file."""
+        given = self.file.scene
+        return given if given in scene_names() else str(self.path.parent / given)
 
     @property
     def intervals(self) -> int:

@@ -35,6 +35,22 @@ class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
 
 
+def agreed(folder: Path, participant: str) -> bool:
+    """Whether the participant has agreed in a part of the session that is on disk. Raises SessionError."""
+    path = _path(folder, participant)
+    lines = read_session(path) if path.exists() else []
+    return bool(lines and lines[0].get("consent"))
+
+
+def _path(folder: Path, participant: str) -> Path:
+    """Raises SessionError for a wrong pseudonym."""
+    if not _PSEUDONYM.fullmatch(participant):
+        raise SessionError(
+            f"{participant!r} is no pseudonym: give letters, digits, - and _, at most 40, such as P01; no name"
+        )
+    return folder / f"{participant}{SUFFIX}"
+
+
 class Session:
     """Trials of one participant. A session that was interrupted goes on with the trial after the last whole line.
 
@@ -51,13 +67,9 @@ class Session:
 
         Raises SessionError for a wrong pseudonym, another protocol, or a file that another process uses.
         """
-        if not _PSEUDONYM.fullmatch(participant):
-            raise SessionError(
-                f"{participant!r} is no pseudonym: give letters, digits, - and _, at most 40, such as P01; no name"
-            )
+        self.path = _path(folder, participant)
         if protocol.file.consent and not consent:
             raise SessionError("the participant has not agreed to the text of the protocol's key consent")
-        self.path = folder / f"{participant}{SUFFIX}"
         private_folder(folder)
         before = set(sessions(folder))
         self._descriptor = private(str(self.path), os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0))
@@ -193,7 +205,7 @@ def delete_participant(folder: Path, participant: str) -> list[Path]:
         raise SessionError(f"{folder} has no participant {participant!r}")
     names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
     # Also of a trial that was never answered, and what a kill left of one.
-    own = re.compile(re.escape(participant) + r"-\d{4,}-\d\.parquet(\..+)?")
+    own = re.compile(re.escape(participant) + r"-\d{4,}-\d+\.parquet(\..+)?")
     names |= {file.name for file in folder.iterdir() if own.fullmatch(file.name)}
     found = [file for name in sorted(names) if Path(name).name == name and (file := folder / name).is_file()]
     for file in [*found, path]:

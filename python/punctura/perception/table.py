@@ -33,7 +33,7 @@ DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("force_scale", pa.float64(), "", "how much of the model's force the device gave"),
     ("reference_drop_N", pa.float64(), "N", "felt drop, mean of the other intervals; empty without them"),
     ("reference_peak_N", pa.float64(), "N", "largest felt force, mean of the other intervals; empty without them"),
-    ("recordings", pa.string(), "", "files of the intervals, separated by ;"),
+    ("recordings", pa.string(), "", "file of the trial, with all its intervals"),
     ("time", pa.string(), "", "of the answer, ISO 8601, UTC"),
 )  # fmt: skip
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")

@@ -52,6 +52,18 @@ class Activity(Protocol):
         """Called after `stop`, in another thread, when the recording is finished."""
 
 
+class Sitting(Protocol):
+    """A participant's session: the pages see and do nothing else. docs/perception.md"""
+
+    sound: bytes  # masking noise, a WAV file; empty without
+
+    def respond(self, question: int, answer: str) -> None:
+        """The answer of a page, in the worker's thread."""
+
+    def close(self) -> None:
+        """The studio has stopped."""
+
+
 class Activities:
     """The activity of the present run. Belongs to the worker's thread."""
 

@@ -28,6 +28,9 @@ Done: TypeAlias = tuple[str, dict[str, str | int]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
+IN_SITTING = (ask.Respond, ask.Arm, ask.Reset, ask.TripFault)  # and a pause
+
+
 class NotNow(ValueError):
     """The request is not possible in the present state; the text says why."""
 
@@ -35,7 +38,11 @@ class NotNow(ValueError):
 def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     """The worker's job for a request. Raises errors that `refusal` knows, and then changes nothing. A pause is not a
     job, see Session.pause."""
+    if session.sitting and not isinstance(request, IN_SITTING):
+        raise NotNow("a participant's session runs")
     match request:
+        case ask.Respond():
+            return lambda session: _respond(session, request)
         case ask.Arm():
             return lambda session: session.arm()
         case ask.Reset():
@@ -76,6 +83,11 @@ def refusal(number: int, error: Exception) -> Reply:
     if isinstance(error, NameExists):
         return Reply(id=number, ok=False, text=str(error), data={"exists": 1})
     return Reply(id=number, ok=False, text=explain(error))
+
+
+def _respond(session: Session, request: ask.Respond) -> None:
+    if session.sitting:
+        session.sitting.respond(request.question, request.answer)
 
 
 def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:

@@ -22,9 +22,9 @@ from punctura.studio.wire.messages import Control, HandPose, Status
 UNREAD = "This page does not read what it is sent."
 EVENTS_KEPT = 100  # of the present run, for new viewers
 # Of these messages only the newest matters: it takes the place of one that still waits, unless a scene came between.
-SUPERSEDED = ("status", "recording", "laws", "exercise")
+SUPERSEDED = ("status", "recording", "laws", "exercise", "sitting")
 # Messages for a new viewer, in this order; "laws" belongs to the scene before it.
-RETAINED = ("scene", "laws", "control", "recording", "exercise", "fault")
+RETAINED = ("sitting", "scene", "laws", "control", "recording", "exercise", "fault")
 
 Data = str | bytes
 

@@ -137,6 +137,8 @@ class StudioServer:
         if self._thread.is_alive():
             self._thread.join()
         self._socket.close()
+        if self.session.sitting:
+            self.session.sitting.close()
 
 
 def run_studio(

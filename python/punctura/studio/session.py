@@ -14,6 +14,7 @@ from typing import TypeVar
 
 from punctura._core import Device, ReplayDevice
 from punctura.exercise import ResultStore
+from punctura.studio.activity import Sitting
 from punctura.studio.catalog import Exercises
 from punctura.studio.experts import Experts
 from punctura.studio.hand import SimulatedThumb
@@ -51,6 +52,7 @@ class Session(Runs):
         self.exercises = exercises or Exercises()
         self.experts = Experts(results.folder, lambda text: self.jobs.post(lambda: out.send(Notice(text=text))))
         self.failure: BaseException | None = None
+        self.sitting: Sitting | None = None  # a participant's session, which takes the studio for itself
         self.thumb = SimulatedThumb()
         self._rounds = Rounds()
         self._target: Target | None = None

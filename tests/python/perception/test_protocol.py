@@ -11,8 +11,8 @@ from punctura._core import ForceLimits
 from punctura.perception import Observer, Simulation, load_protocol, protocol_names
 from punctura.perception.analysis import person
 from punctura.perception.course import Course
+from punctura.perception.load import check_device
 from punctura.perception.stimulus import simulated
-from punctura.perception.terminal import check_device
 
 
 def problems(folder: Path, text: str) -> dict[str, str]:

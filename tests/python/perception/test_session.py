@@ -6,9 +6,6 @@ import errno
 import json
 import os
 import random
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -16,7 +13,6 @@ from protocols import COMPARES, RIGHT, written
 from punctura.perception import (
     DiskFullError,
     Observer,
-    Protocol,
     Session,
     SessionError,
     Simulation,
@@ -25,21 +21,6 @@ from punctura.perception import (
     read_session,
 )
 from punctura.perception.observer import Senses
-
-KILLED = """
-import os, signal, sys
-from pathlib import Path
-from punctura.perception import Observer, Simulation, load_protocol
-write, left = os.write, [int(sys.argv[3])]
-def dies(descriptor, data):
-    left[0] -= 1
-    if left[0] < 0:
-        write(descriptor, data[: len(data) // 2])
-        os.kill(os.getpid(), signal.SIGKILL)
-    return write(descriptor, data)
-os.write = dies
-Simulation(load_protocol(sys.argv[1]), Observer()).run_on_disk(Path(sys.argv[2]), "P01", 7)
-"""
 
 
 @pytest.fixture(scope="module")
@@ -66,18 +47,6 @@ def test_a_session_cut_at_any_byte_goes_on_as_planned(tmp_path: Path, senses: Se
             assert session.kept == answered
         simulation.run_on_disk(path.parent, "P01", 7)
         assert trials(path) == wanted
-
-
-@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
-def test_kill_loses_no_answered_trial(tmp_path: Path, senses: Senses) -> None:
-    protocol = senses.protocol
-    command = [sys.executable, "-c", KILLED, str(protocol.path), str(tmp_path / "killed"), "25"]
-    assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
-    path = tmp_path / "killed" / "P01.jsonl"
-    assert len(trials(path)) == 24 and not path.read_bytes().endswith(b"\n")  # the header, 24 trials, and a half
-    Simulation(protocol, Observer(), senses).run_on_disk(path.parent, "P01", 7)
-    Simulation(protocol, Observer(), senses).run_on_disk(tmp_path / "whole", "P01", 7)
-    assert trials(path) == trials(tmp_path / "whole" / "P01.jsonl")
 
 
 def test_a_full_disk_pauses_the_session(tmp_path: Path, senses: Senses, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,15 +105,6 @@ def test_people_and_observers_have_their_own_folders(tmp_path: Path, senses: Sen
     Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "O01", 7)
     with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
         Session(senses.protocol, tmp_path, "P01")
-
-
-def test_consent_comes_first(tmp_path: Path) -> None:
-    protocol: Protocol = load_protocol(written(tmp_path, 'consent = "I agree."\n' + COMPARES))
-    with pytest.raises(SessionError, match="has not agreed"):
-        Session(protocol, tmp_path / "out", "P01")
-    assert not (tmp_path / "out").exists()
-    with Session(protocol, tmp_path / "out", "P01", consent=True) as session:
-        assert session.header["consent"] is True
 
 
 def test_participants_have_their_own_numbers_and_can_be_deleted(tmp_path: Path, senses: Senses) -> None:

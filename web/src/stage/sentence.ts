@@ -19,6 +19,7 @@ export class Sentence {
   /** now: of the needle; null if it is not known, or must not be told. */
   words(bands: readonly Band[], now: Felt | null): string {
     const { app, progress } = this;
+    if (app.sitting.value) return app.sitting.value.sentence;
     const { excerpt, paused, live, title } = app.source.value;
     const simulated = app.hello.value?.device.simulated ?? true;
     const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";

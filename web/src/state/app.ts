@@ -11,6 +11,7 @@ import type {
   LabComparison,
   Message,
   RecordingStatus,
+  SittingMessage,
   Status,
 } from "../wire/messages.ts";
 import type { TickBatch } from "../wire/ticks.ts";
@@ -40,6 +41,8 @@ export class App {
   readonly estimate = new Signal<EstimateMessage | null>(null);
   readonly recording = new Signal<RecordingStatus | null>(null);
   readonly exercise = new Signal<ExerciseStatus | null>(null);
+  /** A participant's session: nothing else is shown. */
+  readonly sitting = new Signal<SittingMessage | null>(null);
   /** What the running exercise asks to reach; null without one, and in a blind one. */
   readonly goal = new Signal<Goal | null>(null);
   /** The number of the live run. */
@@ -151,6 +154,9 @@ export class App {
         break;
       case "exercise":
         this.exercise.value = message;
+        break;
+      case "sitting":
+        this.sitting.value = message;
         break;
       case "notice":
         this.notify(message.text);

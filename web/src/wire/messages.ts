@@ -11,6 +11,7 @@ export type Message =
   | EstimateMessage
   | RecordingStatus
   | ExerciseStatus
+  | SittingMessage
   | Reply
   | Notice;
 export type Request =
@@ -39,6 +40,7 @@ export type Request =
   | SaveExercise
   | OpenExercise
   | DeleteExercise
+  | Respond
   | TripFault;
 export type IdentifyLine = FileLine | StepLine | TraceLine | FitLine | RivalsLine | ReportLine | ErrorLine;
 export type LabLine = LabProgress | LabResult | LabFailure;
@@ -337,6 +339,25 @@ export interface GoalState {
   state: "open" | "met" | "missed" | "not measured";
 }
 /**
+ * A participant's session (docs/perception.md): the page shows one sentence, and takes the answers.
+ */
+export interface SittingMessage {
+  kind: "sitting";
+  question: number;
+  sentence: string;
+  answers: AnswerKey[];
+  any_number: boolean;
+  covered: boolean;
+  noise: boolean;
+}
+/**
+ * An answer that is possible now.
+ */
+export interface AnswerKey {
+  name: string;
+  key: string;
+}
+/**
  * The reply to the request with this id.
  */
 export interface Reply {
@@ -574,6 +595,15 @@ export interface DeleteExercise {
   id: number;
   do: "delete_exercise";
   name: string;
+}
+/**
+ * The answer to a question of a participant's session. One to another question is ignored.
+ */
+export interface Respond {
+  id: number;
+  do: "respond";
+  question: number;
+  answer: string;
 }
 /**
  * Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only.

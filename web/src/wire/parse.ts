@@ -11,6 +11,7 @@ const KINDS: Readonly<Record<Message["kind"], true>> = {
   estimate: true,
   recording: true,
   exercise: true,
+  sitting: true,
   reply: true,
   notice: true,
 };

@@ -40,7 +40,7 @@ it("has one of each kind of message and request that the page has a type for", (
   const kinds: Record<Message["kind"], true> = {
     hello: true, scene: true, laws: true, control: true, status: true, fault: true, event: true,
     estimate: true, recording: true,
-    exercise: true, reply: true, notice: true,
+    exercise: true, sitting: true, reply: true, notice: true,
   }; // biome-ignore format: a table
   const requests: Record<Request["do"], true> = {
     take_control: true, arm: true, pause: true, reset: true, target: true,
@@ -54,7 +54,7 @@ it("has one of each kind of message and request that the page has a type for", (
     save_exercise: true,
     open_exercise: true,
     delete_exercise: true,
-    end_exercise: true, trip_fault: true,
+    end_exercise: true, respond: true, trip_fault: true,
   }; // biome-ignore format: a table
   expect(contract.messages.map((message) => message.kind).sort()).toEqual(Object.keys(kinds).sort());
   expect(contract.requests.map((request) => request.do).sort()).toEqual(Object.keys(requests).sort());

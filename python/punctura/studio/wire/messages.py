@@ -194,6 +194,25 @@ class ExerciseStatus(AttemptStatus):
     blind: bool = False  # the page shows no needle and no depth while it runs
 
 
+class AnswerKey(Part):
+    """An answer that is possible now."""
+
+    name: str  # that `respond` sends back
+    key: str  # of the keyboard, as the browser names it
+
+
+class SittingMessage(Part):
+    """A participant's session (docs/perception.md): the page shows one sentence, and takes the answers."""
+
+    kind: Literal["sitting"] = "sitting"
+    question: int  # its number, which `respond` repeats
+    sentence: str
+    answers: list[AnswerKey]  # none: the needle is to be moved
+    any_number: bool  # above 0: it is an answer
+    covered: bool  # the view is hidden
+    noise: bool  # GET /api/noise.wav plays, in a loop
+
+
 class Reply(Part):
     """The reply to the request with this id."""
 
@@ -214,7 +233,7 @@ class Notice(Part):
 
 Message = Annotated[
     Hello | SceneMessage | LawsMessage | Control | Status | FaultMessage | MembraneEvent | EstimateMessage
-    | RecordingStatus | ExerciseStatus | Reply | Notice,
+    | RecordingStatus | ExerciseStatus | SittingMessage | Reply | Notice,
     Field(discriminator="kind"),
 ]  # fmt: skip
 

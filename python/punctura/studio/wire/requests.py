@@ -188,6 +188,14 @@ class EndExercise(_Request):
     do: Literal["end_exercise"] = "end_exercise"
 
 
+class Respond(_Request):
+    """The answer to a question of a participant's session. One to another question is ignored."""
+
+    do: Literal["respond"] = "respond"
+    question: Annotated[int, Field(ge=0, le=2**53 - 1)]
+    answer: Annotated[str, Field(max_length=80)]
+
+
 class TripFault(_Request):
     """Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only."""
 
@@ -197,12 +205,12 @@ class TripFault(_Request):
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault
+    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | TripFault
 )  # fmt: skip
 Request = Annotated[
     TakeControl | Arm | Pause | Reset | Target | Awake | Took | Strokes | PushPlunger | PlayMotion | Edit | Load
     | LoadText | Compare | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | TripFault,
+    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | TripFault,
     Field(discriminator="do"),
 ]  # fmt: skip
 

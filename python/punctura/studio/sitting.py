@@ -1,0 +1,291 @@
+"""A participant's session on the stage: one sentence, and answers by key, finger or the device's buttons.
+
+Each trial is a run with a recording. Its stimuli change within the run, while the needle is outside the tissue and the
+view is covered. Its answer is on the disk before the run of the next one begins.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import BaseModel
+
+from punctura import Phase, PuncturaError, Scene
+from punctura._core import Fault, ServoState, describe
+from punctura.events import crossing
+from punctura.perception.course import Trial, counted
+from punctura.perception.felt import READY_S, Spoilt, felt_of
+from punctura.perception.noise import pink_noise
+from punctura.perception.protocol import Protocol
+from punctura.perception.session import Session as Answers
+from punctura.perception.session import agreed
+from punctura.perception.stimulus import Felt
+from punctura.record import RecorderStatus
+from punctura.studio.activity import Outcome
+from punctura.studio.loaded import Loaded
+from punctura.studio.session import Session
+from punctura.studio.wire.messages import AnswerKey, SittingMessage
+from punctura.ticks import ABSENT, Ticks
+
+WAIT = "Hold the needle in front of the tissue."
+GO = {"Go on": "Enter"}
+NOISE_S = 20
+_NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}")
+Then = Callable[[str], None]  # gets an answer
+
+
+class PerceptionSitting:
+    """One participant's session, or the rest of it, for the worker's thread. It is the activity of each of its runs."""
+
+    what = "session"
+    end_at: float | None = None
+
+    def __init__(self, studio: Session, protocol: Protocol, base: Loaded, participant: str) -> None:
+        """base: the scene's file. The answers are beside the studio's recordings. Raises SessionError."""
+        self.sound = pink_noise(NOISE_S) if protocol.file.noise else b""
+        self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
+        self._folder = studio.shelf.folder
+        self._shown = SittingMessage(
+            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise
+        )
+        self._then: Then = lambda answer: None
+        self._remark = ""  # on the last answer
+        self._held = 0  # buttons
+        self._trial: Trial | None = None
+        self._attempt = self._interval = 0  # at this trial, from 1; in this attempt, from 0
+        self._over = True  # the interval: the needle may do what it wants
+        self._through = self._uncover_at = math.inf  # depth behind the judged membrane, m; on the clock of `ticks`
+        self._touched = self._was_through = False
+        self._answers: Answers | None = None
+        if not protocol.file.consent or agreed(self._folder, participant):
+            self._open()
+
+    def start(self) -> None:
+        self._idle()
+        if self._answers is None:
+            self._say(f"{self._protocol.file.consent} Do you agree?", {"yes": "y", "no": "n"}, self._consented)
+        else:
+            self._welcome()
+
+    def respond(self, question: int, answer: str) -> None:
+        now = self._shown
+        number = now.any_number and _NUMBER.fullmatch(answer) and float(answer) > 0
+        if question == now.question and (number or answer in (one.name for one in now.answers)):
+            self._then(answer)
+
+    def close(self) -> None:
+        """After the studio has stopped."""
+        if self._answers:
+            self._answers.__exit__(None, None, None)
+
+    def _open(self) -> None:
+        self._answers = Answers(self._protocol, self._folder, self._participant, consent=True)
+
+    def _consented(self, answer: str) -> None:
+        if answer == "no":
+            self._say("Then there is no session. Thank you.")
+            return
+        try:
+            self._open()
+        except (PuncturaError, OSError) as bad:
+            self._say(str(bad), GO, self._consented)
+        else:
+            self._welcome()
+
+    def _welcome(self) -> None:
+        assert self._answers
+        done = f"{self._answers.kept} of {len(self._answers.course)} trials are done." if self._answers.kept else ""
+        self._say(done or self._protocol.file.instruction or "The session begins.", GO, lambda _: self._next())
+
+    def _next(self) -> None:
+        assert self._answers
+        before, self._trial, self._attempt = self._trial, self._answers.next(), 0
+        if self._trial is None:
+            self._say("That was the last trial. Thank you.")
+        elif before and self._trial.block != before.block:
+            seconds = self._protocol.file.trials.break_s
+            rest = "" if seconds is None else f" Rest for at least {float(seconds):g} s."
+            self._say(f"A block is over.{rest}", GO, lambda _: self._begin())
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        """The run of a trial."""
+        studio, trial = self._studio, self._trial
+        assert trial
+        if not studio.arming.armed:  # only a person turns it on again, docs/safety.md
+            self._say("The force is off. It comes back when you go on.", GO, lambda _: self._armed())
+            return
+        if self._attempt == 0:  # a kill may have ended this trial before its answer
+            self._discard("*")
+        self._attempt += 1
+        self._interval = 0
+        about = {"participant": self._participant, "trial": trial.number}
+        try:
+            studio.begin_activity(self, self._scene(), None, self._name(), about)
+        except (PuncturaError, OSError) as bad:
+            self._again(str(bad))
+        else:
+            self._explore()
+
+    def _armed(self) -> None:
+        self._studio.arm()
+        self._begin()
+
+    def _name(self, attempt: object = None) -> str:
+        assert self._trial
+        return f"{self._participant}-{self._trial.number:04d}-{attempt or self._attempt}"
+
+    def _discard(self, attempt: object = None) -> None:
+        """Recordings of this trial."""
+        for file in self._folder.glob(f"{self._name(attempt)}.parquet*"):
+            file.unlink()
+
+    def _scene(self) -> Loaded:
+        assert self._trial
+        return replace(self._base, scene=self._trial.intervals[self._interval].scene)
+
+    def _explore(self) -> None:
+        """The interval begins: the needle may go through the tissue as soon as the view is uncovered."""
+        self._say(WAIT)
+        self._through = crossing(self._scene().scene, self._protocol.membrane, 1.0).through
+        self._touched = self._was_through = self._over = False
+        self._uncover_at = time.monotonic() + (READY_S if self._interval else self._ramp)
+
+    @property
+    def _ramp(self) -> float:
+        """Until the force is whole, s."""
+        return READY_S + float(self._studio.run.loop.limits.ramp_time)
+
+    def _words(self) -> str:
+        assert self._trial and self._answers
+        practice = ", practice" * (self._trial.kind == "practice")
+        which = ("first", "second", "third")[self._interval]
+        return (
+            f"Trial {self._answers.course.at + 1} of {len(self._answers.course)}{practice}"
+            f"{f', {which} interval' * (self._protocol.intervals > 1)}: push the needle through the "
+            f"{self._base.scene.membranes[self._protocol.membrane].name}, then draw it out."
+        )
+
+    def _explored(self) -> None:
+        """The needle was through and is out again."""
+        self._interval += 1
+        if self._interval == self._protocol.intervals:
+            self._finish()
+            return
+        self._say(WAIT)
+        self._studio.edit(self._scene())
+        self._explore()
+
+    def _finish(self, reason: str = "") -> None:
+        """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
+        self._say(WAIT)
+        trial, recording = self._trial, self._folder / f"{self._name()}.parquet"
+        assert trial
+
+        def finished(_: str, status: RecorderStatus) -> None:  # in a thread of its own
+            found: list[Felt] = []
+            why = reason or status.words
+            try:
+                found = [] if why else felt_of(recording, trial.intervals, self._protocol.membrane)
+            except (Spoilt, PuncturaError, OSError, ValueError) as bad:
+                why = str(bad)
+            self._studio.jobs.post(lambda: self._again(why) if why else self._ask(found))
+
+        if not self._studio.recording:  # the ticks have ceased, and ended the run
+            self._again(reason)
+            return
+        self._studio.end_run(finished)
+        self._idle()
+
+    def _idle(self) -> None:
+        """A run without force and recording."""
+        self._studio.begin_activity(self, self._studio.run.loaded, self._studio.run.pose)
+        self._studio.run.loop.pause()
+
+    def _again(self, why: str) -> None:
+        self._discard()
+        words = f"The trial is repeated: {why.rstrip('. ')}. {WAIT}"
+        self._say(words, GO, lambda _: self._armed())
+
+    def _ask(self, felt: list[Felt]) -> None:
+        answers, question = self._protocol.answers, self._protocol.file.question
+        self._say(question, answers, lambda answer: self._save(answer, felt), any_number=not answers)
+
+    def _save(self, answer: str, felt: list[Felt]) -> None:
+        trial, protocol = self._trial, self._protocol
+        assert trial and self._answers
+        try:
+            self._answers.add(trial, answer, felt, [f"{self._name()}.parquet"])
+        except (PuncturaError, OSError) as bad:
+            self._say(f"{bad}.", GO, lambda _: self._save(answer, felt))
+            return
+        if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
+            self._remark = "Right. " if counted(protocol, trial.position, answer) else "That was another one. "
+        self._next()
+
+    def _say(
+        self, sentence: str, answers: Mapping[str, str] | None = None, then: Then = lambda answer: None, **more: bool
+    ) -> None:
+        """answers: the key of each. more: fields of the message."""
+        keys = [AnswerKey(name=name, key=key) for name, key in (answers or {}).items()]
+        said = {"question": self._shown.question + 1, "sentence": self._remark + sentence, "answers": keys}
+        self._shown = self._shown.model_copy(update={"covered": True, "any_number": False, **said, **more})
+        self._then = then
+        if sentence != WAIT:
+            self._remark = ""
+        self._studio.out.send(self._shown)
+
+    # The activity of the runs.
+
+    def begin(self, scene: Scene) -> None:
+        """Nothing is known before the first tick."""
+
+    def ticks(self, ticks: Ticks, now: float) -> Sequence[BaseModel]:
+        self._press(ticks.buttons)
+        if self._over:
+            return ()
+        outside = bool(np.isin(ticks.phase[-1], (int(Phase.outside), ABSENT)).all())
+        self._touched |= not outside
+        self._was_through |= bool((ticks.depth[:, self._protocol.membrane] >= self._through).any())
+        if self._uncover_at < math.inf and ticks.state[-1] != ServoState.active:
+            self._uncover_at = now + self._ramp
+        elif now >= self._uncover_at:
+            self._uncover_at = math.inf
+            self._say(self._words(), covered=not self._protocol.file.picture)
+        elif self._touched and not self._was_through and outside:
+            self._touched = False
+            self._say(f"Not through yet: push deeper. {self._words()}", covered=not self._protocol.file.picture)
+        fault = Fault(int(ticks.fault[-1]))
+        if fault != Fault.none or (self._was_through and outside):
+            self._over = True
+            end = self._explored if fault == Fault.none else lambda: self._finish(describe(fault))
+            self._studio.jobs.post(end)
+        return ()
+
+    def _press(self, buttons: npt.NDArray[np.integer]) -> None:
+        """The device's first button gives the first answer, the second one the second. A dead-man button gives none."""
+        before, self._held = self._held, int(buttons[-1])
+        pressed = int(np.bitwise_or.reduce(buttons & ~np.append(before, buttons[:-1]).astype(buttons.dtype)))
+        pressed &= ~int(self._studio.bench.settings.limits.gate.get("dead_man", 0))
+        first = next((one for bit, one in enumerate(self._shown.answers) if pressed >> bit & 1), None)
+        if first:
+            self._studio.jobs.post(partial(self.respond, self._shown.question, first.name))
+
+    def scene_change(self) -> None:
+        """A stimulus of the trial."""
+
+    def stop(self) -> None:
+        if not self._over:  # the ticks have ceased
+            self._over = True
+            self._studio.jobs.post(lambda: self._finish("the run has ended"))
+
+    def finish(self) -> Outcome:
+        return Outcome()

@@ -1,0 +1,60 @@
+"""A participant's session at the page, by keys alone, whose studio is killed again and again at random moments.
+
+    PYTHONPATH=tools python tests/page/kills.py [KILLS] [SEED]
+
+Fails if an answered trial is lost, or another one comes than is planned. docs/perception.md has a result.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+from chromium import launch
+from person import opened
+from playwright.sync_api import Page, sync_playwright
+from sitting import answered, on_disk, sitting, stroke
+
+LONGEST_S = 10.0  # from the start of a studio to its kill
+
+
+def act(page: Page) -> int:
+    """What a person does now. Returns how many answers the page said to be on the disk."""
+    words = page.locator(".stage-sentence").inner_text()
+    if "push the needle" in words:
+        stroke(page)
+    page.keyboard.press("y" if "Did it pop?" in words or "Do you agree?" in words else "Enter")
+    page.wait_for_timeout(50)
+    found = re.match(r"Trial (\d+) of|(\d+) of", words)
+    return (int(found[1]) - 1 if found[1] else int(found[2])) if found else 0
+
+
+def main(kills: int = 50, seed: int = 1) -> None:
+    draw, folder = random.Random(seed), Path(tempfile.mkdtemp())
+    answered(folder, 0)
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
+        studio = sitting(folder)
+        with opened(browser, studio.url, bench=False) as page:
+            for _ in range(kills):
+                killer = threading.Timer(draw.uniform(0.0, LONGEST_S), studio.kill)
+                killer.start()
+                told = [act(page)]
+                while killer.is_alive():
+                    told.append(act(page))
+                assert len(on_disk(folder)) >= max(told)
+                studio = sitting(folder, studio.port)
+            while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
+                act(page)
+        studio.end()
+        browser.close()
+    assert len(on_disk(folder)) == 20
+    print(f"{kills} kills, 20 answered trials, none lost, order as planned")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

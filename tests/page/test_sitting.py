@@ -1,0 +1,36 @@
+"""A participant's session at the page, by keys alone."""
+
+from person import opened
+from playwright.sync_api import expect
+from sitting import answered, on_disk, sentence, sitting, stroke
+
+
+def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, tmp_path):
+    answered(tmp_path, 18)
+    with sitting(tmp_path) as studio, opened(browser, studio.url, sound="on", bench=False) as page:
+        sentence(page, "18 of 20 trials are done.")
+        with page.expect_response(lambda answer: answer.url.endswith("/api/noise.wav")):
+            page.keyboard.press("Enter")
+        sentence(page, "Trial 19 of 20: push the needle through the thin membrane")
+        expect(page.locator(".stage-force")).to_be_hidden()
+        expect(page.locator(".stage-curve")).to_be_hidden()
+        expect(page.locator(".view-main > canvas")).to_have_css("opacity", "0")
+        expect(page.get_by_role("button")).to_have_count(1)  # turns the force off
+        stroke(page)
+        sentence(page, "Did it pop?")
+        for name in ("yes", "no"):
+            box = page.get_by_role("button", name=name).bounding_box()
+            assert box and min(box["width"], box["height"]) >= 44
+        page.keyboard.press("y")
+        sentence(page, "Trial 20 of 20")
+        assert len(on_disk(tmp_path)) == 19
+        studio.kill()
+        with sitting(tmp_path, studio.port):
+            sentence(page, "19 of 20 trials are done.")
+            page.keyboard.press("Enter")
+            sentence(page, "Trial 20 of 20")
+            stroke(page)
+            sentence(page, "Did it pop?")
+            page.keyboard.press("n")
+            sentence(page, "That was the last trial.")
+    assert [line["answer"] for line in on_disk(tmp_path)][18:] == ["yes", "no"]

@@ -1,0 +1,157 @@
+"""A session in the studio without a browser: what the page is told, what it answers, what the needle did."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from protocols import COMPARES, YES, written
+from punctura._core import ForceLimits
+from punctura.live import RunLimits
+from punctura.perception import Session, load_protocol, read_session
+from punctura.record import open_recording
+from punctura.results import JsonObject
+from punctura.studio.client import StudioClient
+from punctura.studio.loaded import from_name
+from punctura.studio.run import Settings
+from punctura.studio.serve import StudioServer
+from punctura.studio.sitting import PerceptionSitting
+from waiting import LATE_ALLOWED
+
+SCALED = '[values]\n"display.force_scale" = 0.8\n'
+
+
+class Person:
+    """Reads the page, answers, and moves the needle."""
+
+    def __init__(self, page: StudioClient) -> None:
+        self.page = page
+
+    @property
+    def _last(self) -> JsonObject:
+        return (self.page.of("sitting") or [{"sentence": ""}])[-1]
+
+    def reads(self, words: str) -> None:
+        self.page.wait(lambda: words in self._last["sentence"])
+        self.now = self._last
+
+    def answers(self, name: str, **more: int) -> None:
+        assert self.page.ask(**{"do": "respond", "question": self.now["question"], "answer": name, **more})["ok"]
+        self.page.wait(lambda: self._last["question"] > self.now["question"])
+
+    def goes_through(self, words: str = "push the needle", depth: float = 0.012) -> None:
+        """Through the membrane, if it is thinner than that, and out again."""
+        self.reads(words)
+        membrane = self.page.of("scene")[-1]["scene"]["membranes"][0]
+        point, inward = np.array(membrane["point"]), np.array(membrane["inward_normal"])
+        for place, what in ((depth, "pop" if depth > 0.01 else "touch"), (-0.005, "out")):
+            before = len(self.page.of("event"))
+            self.page.target((point + place * inward).tolist(), inward.tolist())
+            self.page.wait(lambda n=before, what=what: what in [event["what"] for event in self.page.of("event")[n:]])
+
+
+@contextmanager
+def sat(folder: Path, text: str, limits: ForceLimits | None = None) -> Iterator[tuple[Person, StudioServer]]:
+    protocol = load_protocol(written(folder, text + SCALED))
+    base = from_name(protocol.scene_name)
+    settings = Settings("simulated", limits=RunLimits(limits or ForceLimits(), LATE_ALLOWED))
+    server = StudioServer(base, settings, page=folder, folder=folder / "out")
+    try:
+        server.session.sitting = sitting = PerceptionSitting(server.session, protocol, base, "P01")
+        server.session.call(sitting.start)
+        server.start()
+        with StudioClient(server.address.url) as page:
+            yield Person(page), server
+    finally:
+        server.stop()
+
+
+def saved(folder: Path) -> list[dict]:
+    return read_session(folder / "out" / "P01.jsonl")
+
+
+def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
+    text = 'consent = "I agree."\nnoise = true\n' + COMPARES
+    with sat(tmp_path, text) as (person, _):
+        person.reads("I agree. Do you agree?")
+        assert person.page.get("/api/noise.wav")[1][:4] == b"RIFF"
+        assert not person.page.ask(do="load", scene="venipuncture")["ok"]  # a session has the studio for itself
+        person.answers("yes")
+        person.reads("The session begins.")
+        person.answers("Go on")
+        person.goes_through("Trial 1 of 120, first interval: push")
+        person.goes_through("Trial 1 of 120, second interval: push")
+        person.reads("Which one fell more?")
+        assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
+        person.answers("second")
+        person.reads("Trial 2")
+    header, first = saved(tmp_path)
+    assert header["consent"] and first["answer"] == "second"
+    recording = open_recording(tmp_path / "out" / first["recordings"][0])
+    levels = [0.41, 0.41]
+    levels[first["position"]] = first["level"]
+    assert recording.info.scene.membranes[0].membrane.precompression == levels[0]  # the second one came by an exchange
+    more, less = (0, 1) if levels[0] > levels[1] else (1, 0)
+    assert first["felt"][more]["drop"] > first["felt"][less]["drop"] + 0.01
+    assert all(felt["scale"] == 0.8 and felt["pops"] == 1 for felt in first["felt"])
+    with sat(tmp_path, text) as (person, _):
+        person.reads("1 of 120 trials are done.")
+
+
+def test_no_consent_no_session(tmp_path: Path) -> None:
+    with sat(tmp_path, 'consent = "I agree."\n' + COMPARES) as (person, _):
+        person.reads("Do you agree?")
+        person.answers("no")
+        person.reads("Then there is no session.")
+    assert not (tmp_path / "out" / "P01.jsonl").exists()
+
+
+def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a limit, by a fault, without force; and an answer that the disk does not take is asked for again."""
+    with sat(tmp_path, YES, ForceLimits(max_force=0.2)) as (person, server):
+        person.reads("The session begins.")
+        person.answers("Go on")
+        person.goes_through(depth=0.001)
+        person.goes_through("Not through yet: push deeper.")
+        person.reads("repeated: the force was cut: peak limit. Hold")
+        assert not list((tmp_path / "out").glob("*.parquet*"))
+        person.answers("Go on")
+        person.reads("push")
+        assert person.page.ask(do="trip_fault")["ok"]
+        person.reads("repeated: ")
+        server.session.bench.settings = Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED))
+        person.answers("Go on")
+        person.reads("push")
+        assert person.page.ask(do="pause")["ok"]
+        person.goes_through()
+        person.reads("repeated: the force was not on")
+        person.answers("Go on")
+        person.goes_through()
+        person.reads("Did it pop?")
+        add = Session.add
+        full = OSError(errno.ENOSPC, "the disk is full")
+        monkeypatch.setattr(Session, "add", lambda *_: (_ for _ in ()).throw(full))
+        person.answers("yes")
+        person.reads("the disk is full")
+        monkeypatch.setattr(Session, "add", add)
+        person.answers("Go on")
+        person.reads("Trial 2")
+    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes"]
+
+
+def test_the_buttons_of_a_device_answer_and_an_answer_to_another_question_does_not(tmp_path: Path) -> None:
+    magnitude = COMPARES.replace('"two_intervals"', '"magnitude"').replace("reference = 0.41\n", "")
+    with sat(tmp_path, magnitude) as (person, server):
+        person.reads("The session begins.")
+        server.session.call(lambda: server.session.bench.simulated_device.point((0.0, -1.0, 0.0), 1)).result(30)
+        person.goes_through()
+        person.reads("Which one fell more?")
+        for wrong in ({"answer": "0"}, {"answer": "x"}, {"question": 1}):
+            person.page.ask(**{"do": "respond", "question": person.now["question"], "answer": "2", **wrong})
+        person.answers("2.5")
+        person.reads("Trial 2")
+    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["2.5"]

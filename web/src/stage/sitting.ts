@@ -1,0 +1,77 @@
+import { element, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
+import { pageOf } from "../state/page.ts";
+
+/** Keys that move the needle while a session asks nothing; every other key is an answer, or nothing. */
+const MOVES = ["ArrowDown", "ArrowUp", "Shift"];
+
+/** A participant's session on the stage: its sentence is the stage's, below it are the answers. */
+export const sitting: Panel = (root, app) => {
+  const answers = element("div", { role: "group", "aria-label": "Answers" });
+  const typed = element("input", { inputmode: "decimal", "aria-label": "A number above 0", autocomplete: "off" });
+  const off = (): void => void app.ask({ do: "pause" });
+  const stop = element("button", { type: "button", class: "sitting-stop", onclick: off }, "Force off (Esc)");
+  const box = element("section", { class: "sitting-box", "aria-label": "Session", hidden: true }, typed, answers, stop);
+  root.append(box);
+  const sound = maskingNoise(app);
+  const answer = (name: string): void => {
+    const now = app.sitting.value;
+    if (!now) return;
+    if (now.noise) sound();
+    void app.ask({ do: "respond", question: now.question, answer: name });
+  };
+  app.sitting.watch((now) => {
+    const { classList } = document.documentElement;
+    classList.toggle("sitting", now !== null);
+    classList.toggle("covered", now?.covered ?? false);
+    box.hidden = !now;
+    if (!now) return;
+    pageOf(app).value = "stage";
+    const buttons = now.answers.map(({ name, key }) =>
+      element("button", { type: "button", onclick: () => answer(name) }, name, element("kbd", {}, key)),
+    );
+    answers.replaceChildren(...buttons);
+    typed.hidden = !now.any_number;
+    typed.value = "";
+    const next = now.any_number ? typed : root.querySelector<HTMLElement>('[role="application"]');
+    next?.focus({ preventScroll: true });
+  });
+  // Before the keys of the view, of the stage and of the bench.
+  document.addEventListener("keydown", (event) => take(event), { capture: true });
+  const take = (event: KeyboardEvent): void => {
+    const now = app.sitting.value;
+    if (!now || event.ctrlKey || event.metaKey || MOVES.includes(event.key)) return;
+    if (event.target === typed && event.key !== "Escape") {
+      if (event.key === "Enter") answer(typed.value.trim());
+      return;
+    }
+    event.stopImmediatePropagation();
+    if (event.repeat || event.altKey) return;
+    if (event.key === "Escape") off();
+    const same = ({ key }: { key: string }): boolean => key.toLowerCase() === event.key.toLowerCase();
+    const chosen = now.answers.find(same);
+    if (!chosen) return;
+    event.preventDefault();
+    answer(chosen.name);
+  };
+};
+
+/** Begins it once; browsers block sound that no key and no click began. */
+function maskingNoise(app: App): () => void {
+  let begun = false;
+  return () => {
+    if (begun) return;
+    begun = true;
+    void play(app).catch((error: unknown) => app.notify(`No masking noise: ${error}`));
+  };
+}
+
+async function play(app: App): Promise<void> {
+  const context = new AudioContext();
+  const file = await app.api.get("/api/noise.wav");
+  const noise = context.createBufferSource();
+  noise.buffer = await context.decodeAudioData(await file.arrayBuffer());
+  noise.loop = true;
+  noise.connect(context.destination);
+  noise.start();
+}
