@@ -18,12 +18,7 @@ from punctura.perception.stimulus import QUANTITIES, built, cut_by_limits, simul
 from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
-LEAST = {
-    "constant": 40,
-    "staircase": 40,
-    "quest": 20,
-    "adjustment": 6,
-}  # scored trials for a fit, docs/decisions/perception.md
+LEAST = {"constant": 40, "staircase": 40, "quest": 20, "adjustment": 6}  # scored trials for a fit
 LEAST_LEVELS = 3
 MOST_LEVELS, MOST_TRIALS = 100, 10_000
 

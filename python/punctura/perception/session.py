@@ -22,7 +22,6 @@ from punctura.results import JsonObject
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
-MOST_BYTES = 50_000_000
 _HEADER = {"participant", "number", "digest", "version"}
 _LINE = {"trial", "block", "kind", "level", "position", "answer", "felt", "time"}
 
@@ -140,8 +139,6 @@ class Session:
 
     def _whole_lines(self) -> list[JsonObject]:
         """The lines of the file. What a kill left of a last one is cut off."""
-        if os.fstat(self._descriptor).st_size > MOST_BYTES:
-            raise SessionError(f"{self.path} is too large for a session")
         os.lseek(self._descriptor, 0, os.SEEK_SET)  # on Windows the lock has moved it
         with open(self._descriptor, "rb", closefd=False) as file:
             data = file.read()

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from protocols import ADJUST, COMPARES, RIGHT, SOLVED, WIDE, YES, YES_N, written
-from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol, read_session
+from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol
 from punctura.perception.analysis import Estimate, person
 from punctura.perception.course import Course
 from punctura.perception.observer import Senses
@@ -253,33 +253,22 @@ def test_a_catch_trial_is_an_answer_at_its_level(senses: dict[str, Senses], name
             assert found.jnd.value == pytest.approx(truth, rel=0.06)
 
 
-def test_the_slope_of_ratings(tmp_path: Path) -> None:
-    """Against NumPy's straight line, and no slope without two levels or ratings."""
-    text = COMPARES.replace('"two_intervals"', '"rating"').replace("reference = 0.41\n", "")
-    protocol = load_protocol(written(tmp_path, text))
-    ratings = [
-        line | {"answer": str(5 + (i % 3) + round(4 * (float(str(line["level"])) - 0.5)))}
-        for i, line in enumerate(lines(protocol, lambda level, i: True))
-    ]
-    found = person(protocol, "", ratings)
-    x, y = (np.array([float(str(line[key])) for line in ratings]) for key in ("level", "answer"))
+def test_the_slope_of_ratings_and_the_exponent_of_magnitudes(tmp_path: Path) -> None:
+    """Against NumPy's straight line; numbers of a power of the level; no slope without two ratings."""
+    text = COMPARES.replace("reference = 0.41\n", "")
+    protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"rating"')))
+    shown = lines(protocol, lambda level, i: True)
+    x = np.array([float(str(line["level"])) for line in shown])
+    y = 5 + np.arange(len(x)) % 3 + np.round(4 * (x - 0.5))
+    found = person(protocol, "", [line | {"answer": str(int(n))} for line, n in zip(shown, y, strict=True)])
     (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
     assert found.slope is not None and found.threshold is None and found.slope.value == pytest.approx(slope)
     half = 1.980272 * np.sqrt(covariance[0, 0])  # Student's t of 118 degrees of freedom, 97.5 %
     assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
-    same = person(protocol, "", [line | {"answer": "5"} for line in ratings])
+    same = person(protocol, "", [line | {"answer": "5"} for line in shown])
     assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
-
-
-def test_the_exponent_of_magnitudes(tmp_path: Path) -> None:
-    """Numbers that a person chooses, of a power of the level."""
-    text = COMPARES.replace('"two_intervals"', '"magnitude"').replace("reference = 0.41\n", "")
-    protocol = load_protocol(written(tmp_path, text))
-    numbers = [
-        line | {"answer": f"{30 * float(str(line['level'])) ** 0.8:.6g}"}
-        for line in lines(protocol, lambda level, i: True)
-    ]
-    found = person(protocol, "", numbers)
+    protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"magnitude"')))
+    found = person(protocol, "", [line | {"answer": f"{30 * n**0.8:.6g}"} for line, n in zip(shown, x, strict=True)])
     assert found.slope is not None and found.slope == pytest.approx((0.8, 0.8, 0.8), rel=1e-4)
 
 
@@ -296,12 +285,6 @@ def test_an_adjustment_ends_where_both_intervals_seem_equal(tmp_path: Path) -> N
     assert found.jnd.low < found.jnd.value < found.jnd.high
     assert found.jnd.value == pytest.approx(0.67449 * np.std(levels, ddof=1), rel=1e-4)
     assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(11 / 3.81575), rel=1e-4)  # chi square, 2.5 %
-    simulation.run_on_disk(tmp_path / "out", "P01", 3)
-    path = tmp_path / "out" / "P01.jsonl"
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    assert simulation.run_on_disk(tmp_path / "out", "P01", 3) == 12
-    assert [line["answer"] for line in read_session(path)[1:]] == [line["answer"] for line in session]
 
 
 @pytest.mark.parametrize(("levels", "sd"), [(np.linspace(0.28, 0.32, 9), 0.04), (np.linspace(0.0, 0.6, 11), 0.02)])
