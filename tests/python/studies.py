@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from punctura.study import Plan, run_study
 from punctura.study.folder import Folder
+from punctura.study.report import write_report
 
 GRID = """
 scene = "k06-fig12"
@@ -35,9 +36,12 @@ def written(folder: Path, text: str) -> Path:
     return path
 
 
+def with_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("punctura.study.run.write_report", write_report)
+
+
 def in_chunks(plan: Plan, out: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Runs a study as far as its chunks, as one that is killed before they are joined."""
     with monkeypatch.context() as stopped:
         stopped.setattr(Folder, "join", lambda *_: None)
-        stopped.setattr("punctura.study.run.write_report", lambda *_: ("", 0))
         run_study(plan, out)

@@ -1,4 +1,4 @@
-"""Runs the soak test and the fuzzer of the studio for a few seconds each."""
+"""Runs the soak test and the fuzzer of the studio for a few seconds each. `./test statistics` runs it."""
 
 import os
 import subprocess
@@ -10,6 +10,7 @@ import pytest
 TOOLS = Path(__file__).parents[2] / "tools"
 
 
+@pytest.mark.statistics
 @pytest.mark.skipif(os.name != "posix", reason="ends the studio by a signal")
 @pytest.mark.parametrize(
     "command",

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.folder import StudyWarning
-from studies import GRID, in_chunks, written
+from studies import GRID, in_chunks, with_report, written
 
 OTHER = GRID.replace("0.2, 0.3]", "0.2, 0.31]")
 
@@ -25,6 +25,8 @@ def test_the_files_state_their_plan_without_study_json(
     tmp_path: Path, joined: bool, mark: bytes | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out, plan = tmp_path / "out", load_plan(written(tmp_path, GRID))
+    if joined and mark is None:
+        with_report(monkeypatch)
     if joined:
         run_study(plan, out)
     else:

@@ -16,7 +16,7 @@ from punctura.study import StudyError, load_plan, replay_row, run_study
 from punctura.study.design import design
 from punctura.study.folder import Folder, StudyWarning
 from punctura.study.run import Forecast
-from studies import GRID, in_chunks, written
+from studies import GRID, in_chunks, with_report, written
 
 SOBOL = """
 scene = "k06-fig12"
@@ -155,6 +155,7 @@ def test_damaged_files_are_computed_again(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_the_report_has_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with_report(monkeypatch)
     plan = load_plan(written(tmp_path, GRID))
     run_study(plan, tmp_path / "out")
     report = (tmp_path / "out" / "report.md").read_text()
@@ -201,7 +202,10 @@ def test_a_missing_package_is_told_without_a_traceback(tmp_path: Path, punctura,
 
 
 @pytest.mark.parametrize("blocked", ["out", "out/lock", "out/study.json", "out/pictures"])
-def test_a_folder_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path, blocked: str) -> None:
+def test_a_folder_that_cannot_be_written_is_named_with_what_to_do(
+    tmp_path: Path, blocked: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with_report(monkeypatch)
     place = tmp_path / blocked
     place.parent.mkdir(exist_ok=True)
     if blocked in ("out", "out/pictures"):
@@ -241,7 +245,8 @@ def test_a_row_again_is_the_row(tmp_path: Path, punctura) -> None:
     assert punctura("study", plan.path, "--replay", "6").status == 2
 
 
-def test_the_command_writes_sobol_indices(tmp_path: Path, punctura) -> None:
+def test_the_command_writes_sobol_indices(tmp_path: Path, punctura, monkeypatch: pytest.MonkeyPatch) -> None:
+    with_report(monkeypatch)
     path = written(tmp_path, SOBOL)
     done = punctura("study", path, "--json", "--workers", "1")
     assert done.status == 0, done.stderr
