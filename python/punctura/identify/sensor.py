@@ -15,7 +15,23 @@ Array = NDArray[np.float64]
 
 FINE = 8  # steps of a filter from sample to sample
 SHIFT = 1e-5  # s, of a lag or a delay, for a derivative
+OUTSIDE, JUST, SLOWLY = 0.3, 1e-6, 1e-3  # m, m, m/s: from where the needle came to the first sample, and how fast
 BEYOND, LAST = 10.0, 5  # s; samples: at both ends a motion goes on as these samples show it
+
+
+class _CameIn:
+    """The model's force along a trace, to whose first sample the needle came from outside: it may begin in tissue."""
+
+    def __init__(self, needle: Needle, depth: Array, time: Array | None) -> None:
+        before = np.array([OUTSIDE, JUST])
+        if time is not None:
+            time = np.concatenate((time[0] - before / SLOWLY, time))
+        self._model = TraceModel(needle, np.concatenate((depth[0] - before, depth)), time)
+
+    def forces(self, p: Parameters, jacobian: bool = True, by: Sequence[str] = ()) -> tuple[Array, Array]:
+        """As TraceModel.forces()."""
+        force, columns = self._model.forces(p.membranes, p.coupling, jacobian, by)
+        return force[2:], columns[2:]
 
 
 class SensedModel:
@@ -27,8 +43,8 @@ class SensedModel:
     def __init__(self, needle: Needle, depth: Array, time: Array | None) -> None:
         """depth, time: (n,), m and s. Without time, nothing is late."""
         self._needle, self._depth, self._time = needle, depth, time
-        self._prompt = TraceModel(needle, depth, time)
-        self._moved: tuple[float, int, TraceModel] | None = None  # the delay, s, and the steps of the last such model
+        self._prompt = _CameIn(needle, depth, time)
+        self._moved: tuple[float, int, _CameIn] | None = None  # the delay, s, and the steps of the last such model
         if time is not None:
             near = (0, LAST - 1), (-LAST, -1)
             slopes = [(depth[j] - depth[i]) / (time[j] - time[i]) for i, j in near]
@@ -40,8 +56,8 @@ class SensedModel:
         """The force at every sample (n,), N."""
         lag, delay = p.late
         if self._time is None or lag == delay == 0:
-            return self._prompt.forces(p.membranes, p.coupling, False)[0]
-        return self._filtered(self._model(delay, lag).forces(p.membranes, p.coupling, False)[0], lag)
+            return self._prompt.forces(p, False)[0]
+        return self._filtered(self._model(delay, lag).forces(p, False)[0], lag)
 
     def jacobian(self, p: Parameters, kinds: Sequence[str], late: Sequence[str]) -> Array:
         """Derivatives (n, q + 2) by the q parameters of coupling and membranes, and by lag and delay.
@@ -50,11 +66,9 @@ class SensedModel:
         """
         lag, delay = p.late
         if self._time is None or not (late or lag or delay):
-            _, columns = self._prompt.forces(p.membranes, p.coupling, by=kinds)
+            _, columns = self._prompt.forces(p, by=kinds)
             return np.hstack((columns, np.zeros((len(columns), len(LATE)))))
-        force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0)).forces(
-            p.membranes, p.coupling, by=kinds
-        )
+        force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0)).forces(p, by=kinds)
         by_late = np.zeros((len(self._depth), len(LATE)))
         if "lag" in late:
             low, high = max(lag - SHIFT, 0.0), lag + SHIFT
@@ -64,12 +78,12 @@ class SensedModel:
             by_late[:, 1] = (after - before) / (2 * SHIFT)
         return np.hstack((self._filtered(columns, lag), by_late))
 
-    def _model(self, delay: float, lag: float) -> TraceModel:
+    def _model(self, delay: float, lag: float) -> _CameIn:
         """The model along the motion before the delay, in fine steps if a filter follows."""
         steps = FINE if lag > 0 else 1
         if self._moved is None or self._moved[:2] != (delay, steps):
             depth = np.interp(self._fine(steps) - delay, self._times, self._depths)
-            self._moved = delay, steps, TraceModel(self._needle, depth, self._fine(steps))
+            self._moved = delay, steps, _CameIn(self._needle, depth, self._fine(steps))
         return self._moved[2]
 
     def _fine(self, steps: int) -> Array:

@@ -63,6 +63,14 @@ def test_a_force_of_any_size_gives_the_same_membranes(size):
         assert numbers == pytest.approx(np.multiply((usual.value, usual.low, usual.high), factor), rel=0.02), usual.name
 
 
+def test_a_trace_that_begins_in_the_tissue_has_the_same_membrane():
+    made = trace(noise=0.01)
+    found = identify(made[int(np.argmax(made.depth > 6e-3)) :], NEEDLE)
+    assert len(found.parameters.membranes) == 1 and found.fit.rmse == pytest.approx(0.01, rel=0.1)
+    values = {estimate.name: estimate.value for estimate in found.estimates}
+    assert [values[name] for name in TRUTH] == pytest.approx(list(TRUTH.values()), rel=0.1)
+
+
 def test_without_a_withdrawal_the_verdict_asks_for_one():
     made = trace(noise=0.01)
     found = identify(made[: int(np.argmax(made.depth))], NEEDLE, membranes=1)
