@@ -71,6 +71,12 @@ def exit_sample(depth: Array, force: Array) -> int | None:
     return out if is_out and len(force) - out >= FEWEST else None
 
 
+def leaves_air(force: Array, greatest: float) -> bool:
+    """Whether a force (n,), N, leaves the air; greatest: that of the whole trace, N."""
+    away = np.abs(smooth(_without_spikes(force), max(1, len(force) // 200) | 1) - baseline(force))
+    return bool(away.max() > max(NOISES * calm_noise(force), SHARE * greatest))
+
+
 def contact_sample(depth: Array, force: Array, after: Array | None = None) -> int | None:
     """The last sample before the force leaves the air. None if the force rises from the first samples on.
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import contact_sample, exit_sample
+from punctura.trace.air import contact_sample, exit_sample, leaves_air
 from punctura.trace.trace import Trace
 from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 
@@ -67,7 +67,10 @@ class Segments:
 def segment(trace: Trace) -> Segments:
     """Finds contact, pops, holds, reversals and insertions of a trace."""
     strokes = _strokes(trace)
-    first = next((stroke for stroke in strokes if stroke.kind == "in"), None)
+    inward = [stroke for stroke in strokes if stroke.kind == "in"]
+    height = float(np.max(np.abs(trace.force - np.median(trace.force))))
+    touching = (stroke for stroke in inward if leaves_air(trace.force[: stroke.end], height))  # a hand turns in air
+    first = next(touching, inward[0] if inward else None)
     moving = [stroke for stroke in strokes if stroke.kind != "hold"]
     out = exit_sample(trace.depth, trace.force) if first and moving[-1].kind == "out" else None
     after = None if out is None else trace.force[out:]

@@ -91,6 +91,13 @@ def test_noise_moves_the_contact_of_a_soft_rise_by_less_than_a_millimetre():
     assert np.abs(np.array(found) - 4e-3).max() < 1e-3
 
 
+def test_a_hand_that_turns_in_air_has_its_contact_behind_the_last_turn():
+    time = np.arange(0, 12, 0.01)
+    depth = 6e-3 - 6e-3 * np.cos(2 * np.pi * time / 12) + 0.2e-3 * np.sin(2 * np.pi * 1.1 * time)
+    made = Trace(depth, force_of(depth) + 8e-3 * np.random.default_rng(1).normal(size=len(depth)), time)
+    assert made.depth[segment(made).contact] == pytest.approx(5e-3, abs=0.2e-3)
+
+
 def test_every_tenth_sample_gives_the_same_contact():
     made = layers()
     few = made[::10]
