@@ -7,7 +7,7 @@ import { codeOf } from "../wire/ticks.ts";
 
 const OUTSIDE = codeOf("phase", "outside");
 const MM = 1e3;
-const ABOVE_MM = 3; // in front of the skin there is nothing to feel
+export const ABOVE_MM = 3; // in front of the skin there is nothing to feel
 const MOST = 20_000; // points; with more, the steps become larger
 const FINEST = { depth: 0.01, force: 0.002 } as const; // mm, N
 
@@ -32,6 +32,9 @@ export function feltAt(history: History, scene: SceneView, tick: number): Felt {
   for (let k = 0; k < 3; k++) depth += (first?.inward_normal[k] ?? 0) * (tip[k]! - (first?.point[k] ?? 0));
   return { depth: depth * MM, force: signedSize(history, "force", history.slot(tick)) };
 }
+
+/** The source that has the whole attempt. Around a pop it is another one; a moment of a recording has all its ticks. */
+export const wholeOf = (source: Source): Source => (source.excerpt?.event && source.excerpt.of) || source;
 
 /**
  * The felt force against the depth of the tip, for the whole attempt. The ticks themselves are kept for some time

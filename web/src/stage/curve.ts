@@ -1,18 +1,19 @@
 import { element } from "../panel.ts";
 import { CanvasPen } from "../plots/kit/canvas_pen.ts";
-import { apart } from "../plots/kit/labels.ts";
+import { apart, textWidth } from "../plots/kit/labels.ts";
 import { Polyline } from "../plots/kit/polyline.ts";
 import { label, niceStep, Scale, ticks } from "../plots/kit/scale.ts";
 import { colourOf, type Theme, watchTheme } from "../plots/kit/theme.ts";
 import type { DepthScale } from "../scene/framing.ts";
 import type { Band } from "../tissue/bands.ts";
-import type { Attempt, Felt } from "./attempt.ts";
+import { ABOVE_MM, type Attempt, type Felt } from "./attempt.ts";
 
 const AXIS = 34; // px, of the numbers of the depth
 const TOP = 2.6; // widths of a letter: the name and the numbers of the force
 const EDGE = 10; // px
 const PULL = 0.3; // of the greatest force: room for a force that pulls
 const MARKS = 8; // widths of a letter: the room for the buttons, right of the greatest force
+const NAMES = 0.45; // of the width without the buttons: the most that the names take, left of the curve
 
 /** What the curve shows at present. */
 interface Shown {
@@ -118,7 +119,11 @@ export class CurvePicture {
   }
 
   private arrange({ bands, beside }: Shown): void {
-    this.force.set(-PULL * this.most, this.most, AXIS, this.width - EDGE - MARKS * this.letter);
+    const right = this.width - EDGE - MARKS * this.letter;
+    const names = Math.max(0, ...bands.map(({ name }) => textWidth(name, this.letter - 1)));
+    const share = Math.min(NAMES, (names + EDGE) / Math.max(1, right - AXIS));
+    const pull = Math.max(PULL, share / (1 - share));
+    this.force.set(-pull * this.most, this.most, AXIS, right);
     if (beside) {
       this.depth = (mm) => beside.scale.px(mm) - beside.top;
       return;
@@ -130,7 +135,6 @@ export class CurvePicture {
 
   private drawBands(bands: readonly Band[], theme: Theme): void {
     const { pen, width, depth, height, letter } = this;
-    const named = bands.filter(({ name }) => name !== "");
     for (const { tone, membrane, top, bottom } of bands) {
       const high = Math.max(2, depth(bottom) - depth(top));
       const colour = tone
@@ -140,16 +144,9 @@ export class CurvePicture {
           : colourOf(theme, membrane);
       if (colour) pen.box(AXIS, depth(top), width - AXIS, high, colour, tone ? 0.5 : 0.3);
     }
-    const lowest = height - EDGE;
-    const middles = apart(
-      named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2))),
-      letter + 1,
-      lowest,
-    );
     // On the left, where only a force that pulls is drawn.
-    named.forEach(({ name }, i) => {
-      pen.text(AXIS + 6, middles[i]!, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
-    });
+    for (const { name, y } of placedNames(bands, depth, letter, height - EDGE))
+      pen.text(AXIS + 6, y, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
   }
 
   private drawAxes(bands: readonly Band[], theme: Theme): void {
@@ -200,10 +197,32 @@ export class CurvePicture {
   private drawHead(now: Felt | null): void {
     const { head } = this;
     const y = now && this.depth(now.depth);
-    const out = now === null || y === null || !Number.isFinite(y) || y < 0;
+    const out = now === null || now.depth < -ABOVE_MM || y === null || !Number.isFinite(y) || y < this.axis;
     if (head.hidden !== out) head.hidden = out;
     if (out) return;
     const place = `translate(${this.force.px(now.force).toFixed(0)}px, ${Math.min(this.height, y).toFixed(0)}px)`;
     if (head.style.transform !== place) head.style.transform = place;
+  }
+}
+
+/**
+ * The names of the layers with their heights. Each is at its own layer, at most a letter away; where there is no room
+ * for that, the names of the thinnest layers are left out.
+ */
+export function placedNames(
+  bands: readonly Band[],
+  depth: (mm: number) => number,
+  letter: number,
+  lowest: number,
+): { name: string; y: number }[] {
+  const high = ({ top, bottom }: Band): number => depth(bottom) - depth(top);
+  let named = bands.filter(({ name }) => name !== "");
+  for (;;) {
+    const wanted = named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2)));
+    const placed = apart(wanted, letter + 1, lowest);
+    if (named.every((band, i) => Math.abs(placed[i]! - wanted[i]!) <= Math.max(letter, high(band) / 2)))
+      return named.map(({ name }, i) => ({ name, y: placed[i]! }));
+    const thinnest = named.reduce((a, b) => (high(b) < high(a) ? b : a));
+    named = named.filter((band) => band !== thinnest);
   }
 }

@@ -10,7 +10,7 @@ import type { Source } from "../state/source.ts";
 import { type Band, bandsOf } from "../tissue/bands.ts";
 import { asTissue } from "../tissue/layers.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
-import { Attempt, feltAt } from "./attempt.ts";
+import { Attempt, feltAt, wholeOf } from "./attempt.ts";
 import { CurvePicture } from "./curve.ts";
 import { Sentence } from "./sentence.ts";
 
@@ -154,15 +154,13 @@ class Attempts {
   }
 
   shown(): Attempt {
-    const source = rootOf(this.app.source.value);
+    const source = wholeOf(this.app.source.value);
     if (source.live || source.paused) return this.live;
     if (this.other?.source !== source) this.other = new Attempt(source);
     this.other.follow();
     return this.other;
   }
 }
-
-const rootOf = (source: Source): Source => source.excerpt?.of ?? source;
 
 /** A button at each pop of the curve, which shows it again, slowly. */
 class Marks {

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { Attempt } from "../../src/stage/attempt.ts";
+import { Attempt, wholeOf } from "../../src/stage/attempt.ts";
 import { Source } from "../../src/state/source.ts";
 import type { MembraneEvent, SceneView } from "../../src/wire/messages.ts";
 import { codeOf } from "../../src/wire/ticks.ts";
@@ -88,4 +88,14 @@ it("again begins anew, once the needle is out; and so does a new run", () => {
   made.source.history.clear(1);
   ticks(made, down(0, 0.1), () => 0.1);
   expect(points(made.attempt).every(([depth]) => depth < 0.11)).toBe(true);
+});
+
+it("a moment of a recording has the curve of the recording, and a pop that of its run", () => {
+  const { source } = run(8);
+  const part = { of: source, tick: 0, first: 0, last: 1 };
+  const excerpt = (event: MembraneEvent | null): Source => new Source("", false, source.history, { ...part, event });
+  const moment = excerpt(null);
+  expect(wholeOf(moment)).toBe(moment);
+  expect(wholeOf(excerpt({ what: "pop", tick: 0 } as MembraneEvent))).toBe(source);
+  expect(wholeOf(source)).toBe(source);
 });

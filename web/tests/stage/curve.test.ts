@@ -1,0 +1,38 @@
+import { describe, expect, it } from "vitest";
+import { placedNames } from "../../src/stage/curve.ts";
+import type { Band } from "../../src/tissue/bands.ts";
+
+const band = (name: string, top: number, bottom: number): Band => ({ name, top, bottom, tone: null, membrane: null });
+const EPIDURAL = [
+  band("skin", 0, 2.5),
+  band("fat", 2.5, 18),
+  band("", 18, 20),
+  band("ligament", 20, 42),
+  band("flavum", 42, 45),
+  band("space", 45, 49.6),
+  band("dura", 49.6, 50),
+  band("fluid", 50, 58),
+];
+
+describe("the names of the layers", () => {
+  const names = (pxPerMm: number) => placedNames(EPIDURAL, (mm) => 10 + pxPerMm * mm, 13, 10 + 58 * pxPerMm);
+
+  it("are all there where each has room", () => {
+    expect(names(8).map(({ name }) => name)).toEqual(["skin", "fat", "ligament", "flavum", "space", "dura", "fluid"]);
+  });
+
+  it("leave out the thinnest layers where there is no room, and stay apart, in order and inside the picture", () => {
+    const few = names(1.2);
+    expect(few.map(({ name }) => name)).not.toContain("dura");
+    expect(few.length).toBeGreaterThan(3);
+    for (const [i, { y }] of few.slice(1).entries()) expect(y - few[i]!.y).toBeGreaterThanOrEqual(14);
+    expect(few.at(-1)!.y).toBeLessThanOrEqual(10 + 58 * 1.2);
+  });
+
+  it("are at their own layers", () => {
+    for (const { name, y } of names(1.2)) {
+      const { top, bottom } = EPIDURAL.find((one) => one.name === name)!;
+      expect(Math.abs(y - 10 - 0.6 * (top + bottom))).toBeLessThanOrEqual(Math.max(13, 0.6 * (bottom - top)));
+    }
+  });
+});
