@@ -27,7 +27,10 @@ export class Sentence {
     const all = progress.done === TASKS.length;
     if (all && remembered("tour") === null) remember("tour", "seen");
     const exercise = app.exercise.value;
-    if (excerpt) return excerpt.event ? `The pop of the ${excerpt.event.name}, slowly.` : "The moment, slowly.";
+    if (excerpt)
+      return excerpt.event
+        ? `The pop of the ${excerpt.event.name}, slowly.`
+        : "The worst moment of the attempt, slowly.";
     if (paused) return "Paused; the run goes on.";
     if (!live) return `Replay of ${title}`;
     const barred = simulated ? handOf(app).barred.value : null;
@@ -36,7 +39,7 @@ export class Sentence {
     if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
     if (watches) return place(bands, now) || (holder === null ? `${barred} ${TO_MOVE}` : barred);
-    if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated);
+    if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated, true);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }
 }

@@ -14,7 +14,7 @@ const FELT = 0.5;
 export class Progress {
   /** Number of tasks done; the task with this index is next. */
   done = 0;
-  /** The pop that was made; null before it. */
+  /** The last pop that was made; null before it. */
   pop: MembraneEvent | null = null;
   /** The force that fell at this pop: "force fell by 0.32 N". */
   fall = "";
@@ -48,16 +48,17 @@ export class Progress {
       this.take(inside, share);
     }
     this.next = history.end;
-    if (!this.pop) {
-      this.pop = events.value.find(({ what, tick }) => what === "pop" && tick >= this.began) ?? null;
-      if (this.pop) this.fall = fallOf(history, this.pop);
+    const last = events.value.findLast(({ what, tick }) => what === "pop" && tick >= this.began);
+    if (last && last !== this.pop) {
+      this.pop = last;
+      this.fall = fallOf(history, last);
     }
     if (this.pop && this.ready && this.done < 3) this.done = 3;
     return this.state !== before;
   }
 
   private get state(): string {
-    return `${this.done} ${this.ready} ${this.inside}`;
+    return `${this.done} ${this.ready} ${this.inside} ${this.fall}`;
   }
 
   private take(inside: boolean, share: number): void {
