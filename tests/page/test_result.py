@@ -1,7 +1,7 @@
 """The result of an attempt: one thing to change, its moment again, and a page that looks on."""
 
 import pytest
-from person import opened, own_exercise, push, ready, tab
+from person import opened, own_exercise, push, ready, tab, whole_at
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -40,7 +40,10 @@ def test_the_coach_shows_its_moment_and_a_page_that_looks_on_follows(page, studi
         dialog, shown = page.get_by_role("dialog"), projector.get_by_role("dialog")
         expect(dialog.locator(".coach.change p")).to_have_count(1)
         expect(dialog.locator(".coach.change")).to_contain_text("0.02 N are allowed")
-        expect(dialog.locator("footer").get_by_role("button").first).to_have_text("Try again")
+        again = dialog.locator("footer").get_by_role("button").first
+        expect(again).to_have_text("Try again")
+        for size in ((720, 450), (390, 844), (1440, 900)):
+            whole_at(page, size, again, dialog.get_by_role("button", name="Close", exact=True))
         expect(shown).to_contain_text("You pushed with more than 0.02 N")
         expect(shown.get_by_role("button", name="Try again")).to_have_count(0)
 

@@ -103,7 +103,7 @@ export function heldShare({ held, hold }: Pick<ExerciseStatus, "held" | "hold">)
 /** A ring that fills while the needle stays in the space. */
 function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
   const arc = svg("circle", { class: "arc", cx: 22, cy: 22, r: RADIUS, "stroke-dasharray": `0 ${AROUND}` });
-  const words = svg("text", { x: 22, y: 26, "text-anchor": "middle" }, "0.0");
+  const words = svg("text", { x: 22, y: 26, "text-anchor": "middle" }, "0.0 s");
   const drawing = svg(
     "svg",
     { viewBox: "0 0 44 44", "aria-hidden": "true" },
@@ -128,7 +128,7 @@ function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
       root.setAttribute("aria-valuenow", String(held));
       root.setAttribute("aria-valuetext", `${held.toFixed(1)} of ${hold} s`);
       arc.setAttribute("stroke-dasharray", `${heldShare(status) * AROUND} ${AROUND}`);
-      words.textContent = held.toFixed(1);
+      words.textContent = `${held.toFixed(1)} s`;
     },
   };
 }
