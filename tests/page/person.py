@@ -41,6 +41,12 @@ window.cancelAnimationFrame = (id) => {
   ends.delete(id);
 };"""
 
+# For `opened`: a browser without WebGL.
+NO_WEBGL = """const before = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...of) {
+  return kind.startsWith("webgl") ? null : before.call(this, kind, ...of);
+};"""
+
 
 def new_context(
     browser: Browser, scale: float = 0.5, fewer: bool = True, bench: bool = True, **options: Any

@@ -2,7 +2,7 @@
 
 import pytest
 from axe import AXE, none_found
-from person import opened, ready, tab, view, whole_at
+from person import NO_WEBGL, opened, ready, tab, view, whole_at
 from playwright.sync_api import Page, expect
 from studio_process import StudioProcess
 from watched_page import COUNT
@@ -31,10 +31,6 @@ ROWS = """() => {
   return rows.size;
 }"""
 
-NO_WEBGL = """const before = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...of) {
-  return kind.startsWith("webgl") ? null : before.call(this, kind, ...of);
-};"""
 # The seconds that twelve frames of the browser take, and what is drawn in them.
 DRAWN_MEANWHILE = """() => new Promise((done) => {
   const [before, from] = [{...drawn}, performance.now()];
@@ -165,6 +161,7 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
         whole_at(page, size, running.get_by_role("timer"), running.get_by_role("button", name="End"))
         page.wait_for_function(WORDS_WHOLE)
         page.wait_for_function(NEEDLE_WHOLE)
+        page.wait_for_function("document.querySelector('.stage-free').clientHeight > 0.25 * innerHeight")
     expect(running.get_by_text("Stay behind the membrane")).to_be_hidden()  # a phone has no room for what is to come
     page.set_viewport_size({"width": 1440, "height": 900})
     expect(running.get_by_text("Stay behind the membrane")).to_be_visible()

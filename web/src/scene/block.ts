@@ -108,6 +108,11 @@ export class Block {
     this.drawn.forget();
   }
 
+  /** Shows or hides the colours that the membranes have in the plots. */
+  showBars(shown: boolean): void {
+    if (this.parts) this.parts.ends.bars.visible = shown;
+  }
+
   /** Bends the tissue for the moment. Returns whether the picture changes. pixel: its size, mm. */
   update(moment: Moment, holes: Holes, camera: Camera, pixel: number): boolean {
     const { parts, cut, size } = this;

@@ -8,6 +8,8 @@ const STRIPE = 0.025; // of the block's half width
 /** The still parts of the block: its ends, its bottom, and the colour stripes. */
 export class Ends {
   readonly group = new Group();
+  /** The colours of the membranes in the plots. */
+  readonly bars: Mesh;
   private readonly below = new MeshBasicMaterial();
   private readonly stripes = new MeshBasicMaterial({ vertexColors: true });
   private readonly colours: BufferAttribute;
@@ -34,7 +36,8 @@ export class Ends {
       .setAttribute("position", new BufferAttribute(new Float32Array(bars), 3))
       .setAttribute("color", this.colours);
     this.stripes.side = floor.material.side = 2;
-    this.meshes = [end(size, 0.8), end(-size, 0.66), floor, new Mesh(striped, this.stripes)];
+    this.bars = new Mesh(striped, this.stripes);
+    this.meshes = [end(size, 0.8), end(-size, 0.66), floor, this.bars];
     this.group.add(...this.meshes);
   }
 

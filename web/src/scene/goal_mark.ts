@@ -28,21 +28,28 @@ export class GoalMark {
   private readonly band = new Mesh(new BoxGeometry(1, 1, 1), this.material);
   private readonly line = new FatLine(3, 1);
 
-  constructor(theme: Theme) {
+  private inTissue = false;
+
+  constructor(private readonly theme: Theme) {
     this.band.renderOrder = 3;
     this.group.add(this.band, this.line.line);
     this.group.visible = false;
-    theme.watch(() => {
-      this.material.color.copy(theme.color("data-3"));
-      this.line.paint(theme.color("data-3"));
-    });
+    theme.watch(() => this.paint());
   }
 
-  /** size: half the side of the drawn tissue, mm. deepest: its bottom, mm below the first surface. */
+  private paint(): void {
+    const colour = this.theme.color(this.inTissue ? "goal" : "data-3");
+    this.material.color.copy(colour);
+    this.line.paint(colour);
+  }
+
+  /** size: half the side of the drawn tissue, mm. deepest: its bottom, mm below the first surface; else infinite. */
   show(goal: Goal | null, scene: SceneView | null, size: number, deepest = Number.POSITIVE_INFINITY): void {
     const first = scene?.membranes[0];
     this.group.visible = goal !== null && first !== undefined;
     if (!goal || !first) return;
+    this.inTissue = Number.isFinite(deepest);
+    this.paint();
     const normal = this.normal.set(...first.inward_normal).normalize();
     this.group.position.set(0, 0, 0);
     this.along = null;

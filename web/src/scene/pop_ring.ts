@@ -9,8 +9,8 @@ import { MM } from "./moment.ts";
 const CORNERS = 48;
 const SVG = "http://www.w3.org/2000/svg";
 
-/** width, height: of the view, px. */
-type DrawRing = (source: Source, scene: SceneView, camera: Camera, width: number, height: number) => void;
+/** width, height: of the view, px. free: the right end of what nothing covers, px. */
+type DrawRing = (source: Source, scene: SceneView, camera: Camera, width: number, height: number, free: number) => void;
 
 /** Draws a ring on the membrane, around the needle, when it pops, with the drop of the force. */
 export function popRing(host: HTMLElement): DrawRing {
@@ -37,7 +37,7 @@ export function popRing(host: HTMLElement): DrawRing {
   };
   hide();
   layer.style.display = "none";
-  return (source, scene, camera, width, height) => {
+  return (source, scene, camera, width, height, free) => {
     const ring = ringOf(source, still.matches);
     const at = ring && hole(source, ring.event.tick, ring.event.membrane);
     const normal = ring && scene.membranes[ring.event.membrane]?.inward_normal;
@@ -61,7 +61,7 @@ export function popRing(host: HTMLElement): DrawRing {
     }
     const right = Math.max(...points.map(([x]) => x));
     const top = Math.min(...points.map(([, y]) => y));
-    const x = Math.max(8, Math.min(right + 4, width - wide - 8));
+    const x = Math.max(8, Math.min(right + 4, free - wide - 8));
     words.style.transform = `translate(${x.toFixed(1)}px, ${Math.max(4, top - 20).toFixed(1)}px)`;
   };
 }

@@ -162,7 +162,7 @@ export const view: Panel = (host, app) => {
       settle();
       turned = orbit.step(0);
     }
-    drawRing(source, scene, orbit.camera, stage.width, stage.height);
+    drawRing(source, scene, orbit.camera, stage.width, stage.height, (framing.free.value?.right ?? 1) * stage.width);
     canvas.dataset.time = source.live ? "" : world.moment.time.toFixed(4); // for the end-to-end tests
     if (turned && world.extent) world.placeArrow(orbit.camera, world.extent, scene);
     if (framing.free.value && (turned || changed || stage.stale)) tellStage();

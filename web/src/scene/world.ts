@@ -106,6 +106,7 @@ export class World {
    */
   update(source: Source, target: Pose | null, camera: Camera, pixel: number): boolean {
     const { moment, scene, extent } = this;
+    this.block.showBars(!this.nameless); // the stage has no curves of single membranes
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
