@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from punctura.identify.fit import Fit
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace
+from punctura.trace.samples import rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
@@ -148,6 +149,8 @@ def _blocks(trace: Trace, segments: Segments, fit: Fit, residuals: Array, calm: 
     if len(calm) >= 4 * length:
         medians = np.median(calm[: len(calm) // length * length].reshape(-1, length), axis=1)
         spread = max(spread, float(np.var(medians)))
+    coarse = rounding(trace.force)  # a sensor that is quieter than its steps gives equal readings, with one error
+    spread = max(spread, coarse**2) if noise < 2 * coarse else spread
     return Blocks(np.array(edges, np.int64).reshape(-1, 2), np.array(owners, np.int64), left, float(np.sqrt(spread)))
 
 

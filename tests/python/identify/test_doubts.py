@@ -86,6 +86,12 @@ def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
     assert uneven == {kind} & {"barbs", "asymmetric_way_out"}  # a wall that resists on the way in alone is none
 
 
+def test_a_sensor_that_is_quieter_than_its_steps_leaves_no_misfit():
+    made = trace(noise=0.015)
+    coarse = doubted(replace(made, force=np.round(made.force / 0.15) * 0.15))
+    assert coarse.explained.ok and coarse.sentences == ()
+
+
 def test_noise_of_the_depth_is_named_and_not_a_wall():
     made = trace(noise=8e-3)
     shaken = replace(made, depth=made.depth + 10e-6 * np.random.default_rng(2).normal(size=len(made)))

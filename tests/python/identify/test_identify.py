@@ -6,7 +6,6 @@ import os
 import threading
 import warnings
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 
 import numpy as np
 import punctura as pn
@@ -51,24 +50,6 @@ def test_the_truth_of_a_synthetic_trace_is_found():
         width = estimate.high - estimate.low
         assert estimate.low - width / 2 < value < estimate.high + width / 2, name
     assert any("second time" in text for text in found.verdicts)
-
-
-@pytest.mark.parametrize("size", [1e-3, 800.0])  # a microneedle, and a trocar of 500 N
-def test_a_force_of_any_size_gives_the_same_membranes(size):
-    made = trace(noise=0.01)
-    found = identify(replace(made, force=made.force * size), NEEDLE, membranes=1)
-    for estimate, usual in zip(found.estimates, identify(made, NEEDLE, membranes=1).estimates, strict=True):
-        factor = size if estimate.unit in ("N", "N/m") else 1
-        numbers = (estimate.value, estimate.low, estimate.high)
-        assert numbers == pytest.approx(np.multiply((usual.value, usual.low, usual.high), factor), rel=0.02), usual.name
-
-
-def test_a_trace_that_begins_in_the_tissue_has_the_same_membrane():
-    made = trace(noise=0.01)
-    found = identify(made[int(np.argmax(made.depth > 6e-3)) :], NEEDLE)
-    assert len(found.parameters.membranes) == 1 and found.fit.rmse == pytest.approx(0.01, rel=0.1)
-    values = {estimate.name: estimate.value for estimate in found.estimates}
-    assert [values[name] for name in TRUTH] == pytest.approx(list(TRUTH.values()), rel=0.1)
 
 
 def test_without_a_withdrawal_the_verdict_asks_for_one():

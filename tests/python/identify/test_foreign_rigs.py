@@ -1,0 +1,27 @@
+"""Traces of other rigs: forces of any size, and a start in the tissue."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from punctura.identify import identify
+from traces import NEEDLE, trace
+
+
+@pytest.mark.parametrize("size", [1e-3, 800.0])  # a microneedle, and a trocar of 500 N
+def test_a_force_of_any_size_gives_the_same_membranes(size):
+    made = trace(noise=0.01)
+    found = identify(replace(made, force=made.force * size), NEEDLE, membranes=1)
+    for estimate, usual in zip(found.estimates, identify(made, NEEDLE, membranes=1).estimates, strict=True):
+        factor = size if estimate.unit in ("N", "N/m") else 1
+        numbers = (estimate.value, estimate.low, estimate.high)
+        assert numbers == pytest.approx(np.multiply((usual.value, usual.low, usual.high), factor), rel=0.02), usual.name
+
+
+def test_a_trace_that_begins_in_the_tissue_has_the_same_membrane():
+    made = trace(noise=0.01)
+    found = identify(made[int(np.argmax(made.depth > 6e-3)) :], NEEDLE)
+    assert len(found.parameters.membranes) == 1 and found.fit.rmse == pytest.approx(0.01, rel=0.1)
+    truth = {"membrane[0].surface": 5e-3, "membrane[0].stiffness": 600, "membrane[0].friction": 0.2}
+    values = {estimate.name: estimate.value for estimate in found.estimates}
+    assert [values[name] for name in truth] == pytest.approx(list(truth.values()), rel=0.1)
