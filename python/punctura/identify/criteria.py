@@ -16,6 +16,7 @@ from punctura.trace.turns import noise_of
 
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
 STRONG = 6.0  # the same for a sensor that is late, which no trace without it may show: "strong" evidence
+HALF = 0.5  # a linear model sees less than a fit finds
 NOISY = 1.2  # times the noise: where a model leaves more, it is wrong otherwise, and tells nothing of the sensor
 TAKEN = 0.05  # of the squares, that a relaxation takes at least where a rest shows one
 RELAXATION = "relaxation"  # begins the names of its parameters
@@ -45,6 +46,14 @@ class Candidate:
 def candidate(name: str, model: Model, fit: Fit) -> Candidate:
     """A fitted model with the effective number of its samples."""
     return Candidate(name, model, fit, effective_samples(fit.residuals, len(fit.u)))
+
+
+def worth_a_fit(current: Fit, squares: float, more: int, needed: float = EVIDENCE) -> bool:
+    """Whether a linear model with so many parameters more, that leaves these squares, N^2, promises HALF of what BIC
+    asks for, if all samples are independent ones.
+    """
+    n = len(current.residuals)
+    return bool(n * np.log(current.sse / max(squares, 1e-300)) > HALF * (more * np.log(n) + needed))
 
 
 def _relaxing(one: Candidate) -> bool:

@@ -161,6 +161,12 @@ class Fit:
         return NoiseOfFit(self.residuals, self.jacobian)
 
 
+def unexplained(residuals: Array, columns: Array) -> Array:
+    """What a linear model with these columns (n, p) leaves of the residuals (n,)."""
+    known = columns / np.maximum(np.sqrt(np.sum(columns**2, axis=0)), 1e-300)
+    return np.asarray(residuals - known @ np.linalg.lstsq(known, residuals, rcond=1e-10)[0])
+
+
 def in_order(found: Fit) -> Fit:
     """The same fit, and its other ends, with the walls in the order of their depth: a search may swap them."""
     others = tuple(other.in_order() for other in found.others)

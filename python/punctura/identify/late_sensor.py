@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.identify.criteria import STRONG, Candidate
-from punctura.identify.fit import Start
+from punctura.identify.criteria import STRONG, Candidate, worth_a_fit
+from punctura.identify.fit import Start, unexplained
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import LATE, LATEST, Free
 from punctura.identify.rig import Rig
@@ -19,6 +20,7 @@ from punctura.trace import Trace
 Array = NDArray[np.float64]
 
 TYPICAL = 5e-3, 20e-3  # s, where a search begins
+BEGINNINGS = (5e-3, 1.0), (20e-3, 1.0), (20e-3, 2.0), (20e-3, 4.0)  # s, and factors of the spring, of linear models
 HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
 
 
@@ -83,13 +85,15 @@ def _late(one: Candidate, names: Sequence[str], late: float) -> tuple[Free, Arra
 
 
 def _may_be_late(current: Candidate, names: Sequence[str]) -> bool:
-    """Whether BIC of a linear model prefers a lag or a delay, with all samples as independent ones: else none is worth
-    a fit.
+    """Whether a linear model that begins late gains enough with a lag or a delay, or a fit is not worth it.
+
+    A soft spring hides most of what is late, so it also begins with stiffer ones: the way there is not straight.
     """
     fit = current.fit
-    columns = [fit.misfit.residuals(*_late(current, [name], TYPICAL[0])) - fit.residuals for name in names]
-    known = np.column_stack((fit.jacobian, *columns))
-    known /= np.maximum(np.sqrt(np.sum(known**2, axis=0)), 1e-300)
-    left = fit.residuals - known @ np.linalg.lstsq(known, fit.residuals, rcond=1e-10)[0]
-    n = len(left)
-    return bool(n * np.log(fit.sse / max(left @ left, 1e-300)) > np.log(n) + STRONG)
+    least = fit.sse
+    for name, (late, stiffer) in product(names, BEGINNINGS):
+        free, u = _late(current, [name], late)
+        u[free.names.index("coupling_stiffness")] += np.log(stiffer)
+        left = unexplained(fit.misfit.residuals(free, u), fit.misfit.jacobian(free, u))
+        least = min(least, float(left @ left))
+    return worth_a_fit(fit, least, 1, STRONG)

@@ -58,7 +58,9 @@ class Search:
         self.report(name)
         from_these = [replace(one, parameters=self._sensed(one.parameters, model)) for one in from_these]
         misfit = self.tried[0].fit.misfit if self.tried else self._misfit(from_these[0].parameters)
-        enough = noise_limit(self.trace) if self.tried else 0.0  # K06 itself: always from all starts
+        enough = noise_limit(self.trace)
+        if not self.tried or any(one.fit.weighted_rmse < enough for one in self.tried):
+            enough = 0.0  # from all starts: K06 itself, and what must leave less than noise to be better
         try:
             best = best_fit(misfit, model.names, from_these, enough)
             best = best if self.tried else weighted(best)

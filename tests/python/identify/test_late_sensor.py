@@ -43,6 +43,14 @@ def test_a_late_force_is_found_and_the_spring_is_held(kind, machine):
     assert verdict.startswith("The measured force comes late") and f"--rig {kind}_ms=0" in verdict
 
 
+@pytest.mark.parametrize("seed", [10047, 10055, 10087])
+def test_a_lag_that_a_soft_spring_hides_is_found(seed):
+    """K06 alone leaves no more than noise, with a spring a third as stiff as the true one."""
+    trace, needle, truth = random_trace(seed, Conditions(machine=True, lag=LATE))
+    found = identify(trace, needle, 1)
+    assert holds(found, "lag", LATE) and holds(found, "coupling_stiffness", truth["coupling_stiffness"])
+
+
 def test_a_depth_that_is_late_is_a_negative_delay():
     trace, needle, truth = random_trace(4, Conditions(machine=True))
     late = Trace(np.interp(trace.time - LATE, trace.time, trace.depth), trace.force, trace.time)
