@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from punctura import Needle
-from punctura.identify.criteria import Candidate
-from punctura.identify.fit import Start
+from punctura.identify.criteria import Candidate, worth_a_fit
+from punctura.identify.fit import Start, unexplained
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.moves import GAIN, noise_limit, with_hops
@@ -143,6 +143,8 @@ def _extended(search: Search, current: Candidate) -> Candidate:
                 continue  # it was not worth it
             here = current.fit.parameters
             from_these = [Start(model.start(here, weak)) for weak in (True, False)]
+            if not _may_be_worth_it(current, model, from_these):
+                continue
             if "tissue.growth" in extension.start:
                 fresh = search.starts(model.membranes, True, 2)
                 from_these += [replace(one, parameters=model.start(one.parameters)) for one in fresh]
@@ -152,6 +154,20 @@ def _extended(search: Search, current: Candidate) -> Candidate:
         if current is before:
             break
     return current
+
+
+def _may_be_worth_it(current: Candidate, model: Model, starts: Sequence[Start]) -> bool:
+    """Whether a larger model can be worth a fit: the residuals have a shape, or a linear model gains enough."""
+    fit = current.fit
+    if current.effective < WHITE * len(fit.residuals):
+        return True
+    least = fit.sse
+    for start in starts:
+        free = fit.misfit.free(model.names, start.parameters)
+        u = free.coordinates(start.parameters)
+        left = unexplained(fit.misfit.residuals(free, u), fit.misfit.jacobian(free, u))
+        least = min(least, float(left @ left))
+    return worth_a_fit(fit, least, len(model.names) - len(fit.u))
 
 
 def _in_order(search: Search) -> list[Extension]:

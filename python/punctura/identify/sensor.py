@@ -76,7 +76,10 @@ class SensedModel:
         if "delay" in late:
             before, after = (self.forces(p.with_values({"delay": delay + shift})) for shift in (-SHIFT, SHIFT))
             by_late[:, 1] = (after - before) / (2 * SHIFT)
-        return np.hstack((self._filtered(columns, lag), by_late))
+        known = np.flatnonzero(columns.any(axis=0))  # the rest is 0 behind the filter, too
+        given = np.zeros((len(self._depth), columns.shape[1]))
+        given[:, known] = self._filtered(columns[:, known], lag)
+        return np.hstack((given, by_late))
 
     def _model(self, delay: float, lag: float) -> _CameIn:
         """The model along the motion before the delay, in fine steps if a filter follows."""
