@@ -18,6 +18,7 @@ ZERO_NOISES, ZERO_SHARE = 8.0, 0.01  # standard deviations in air and share of t
 SHORT, STEEP = 0.005, 95  # share of the range of the depths, that is a way; per cent of the ways are less steep
 RELAXED = 0.05  # of the peak: a force that falls by more in a rest relaxes
 FEWEST, MOST = 5, 100  # samples at one end: fewer tell nothing, more are thinned
+TELLING = 40  # samples of air, by which a noise that is as large as an error of a model in tissue is excluded
 UNLIKELY = 16.3  # -2 ln of a likelihood ratio, beyond which a noise is excluded: chi-squared of 3, 1 in 1000
 
 
@@ -62,13 +63,18 @@ class AirNoise:
 
     def allows(self, mixture: Mixture, variance: float) -> bool:
         """Whether this noise, of this variance, N^2, is likely enough in air."""
+        return len(self._force) < 2 * FEWEST or self._against(mixture, variance) <= UNLIKELY
+
+    def supports(self, mixture: Mixture, variance: float) -> bool:
+        """The same, and there is air enough to tell it from a model that is wrong in tissue."""
+        return len(self._force) >= TELLING and self._against(mixture, variance) <= UNLIKELY
+
+    def _against(self, mixture: Mixture, variance: float) -> float:
+        """-2 ln of the likelihood of this noise in air over that of the most likely white noise."""
         m = len(self._force)
-        if m < 2 * FEWEST:
-            return True
         lags = np.abs(self._rows[:, None] - self._rows)
         shape = mixture.share * np.exp(-lags / mixture.length) + (1 - mixture.share) * np.eye(m)
-        misfit, least = self._misfit(shape, variance), self._misfit(np.eye(m), None)
-        return misfit - least <= UNLIKELY
+        return self._misfit(shape, variance) - self._misfit(np.eye(m), None)
 
     def _misfit(self, shape: Array, variance: float | None) -> float:
         """-2 ln of the restricted likelihood for the correlations `shape` (m, m); variance None: the most likely."""

@@ -89,23 +89,22 @@ class Rule:
             needed = STRONG if larger.fit.weighted_rmse < NOISY * self._noise else np.inf
         if larger is old:
             return gain >= -needed if len(new.fit.u) < len(old.fit.u) else gain > 0
-        if gain <= needed or self._may_be_drift(new, old):
+        if gain <= needed or self._may_be_slow_noise(new, old):
             return False
         after, before = self.held_out_error(new), self.held_out_error(old)
         return after is not None and (before is None or after <= WORSE * before)
 
-    def _may_be_drift(self, new: Candidate, old: Candidate) -> bool:
-        """Whether `new` adds a relaxation that may be a slow drift of the sensor.
+    def _may_be_slow_noise(self, new: Candidate, old: Candidate) -> bool:
+        """Whether what `new` adds may be slow noise of the sensor.
 
-        It is one unless BIC prefers `new` also where slow noise, as far as it can be in air, may explain what each
-        model leaves.
+        It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as the
+        air has. A relaxation looks like a drift, so there it is as much as the air allows.
         """
         more = set(new.model.names) - set(old.model.names)
-        if not any(name.startswith(RELAXATION) for name in more):
-            return False
-        left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(self.air.allows) for one in (old, new))
-        gain = left_old - left_new
-        return gain - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
+        relaxing = any(name.startswith(RELAXATION) for name in more)
+        noise = self.air.allows if relaxing else self.air.supports
+        left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
+        return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
 
     def held_out_error(self, one: Candidate) -> float | None:
         """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.causes import UNEVEN, Cause, both_ways, causes, way_out
 from punctura.identify.depth_noise import steady_noise
 from punctura.identify.explained import MATTERS, SURE, Explained, explained
@@ -47,9 +48,11 @@ class Doubts:
         }  # fmt: skip
 
 
-def doubts(trace: Trace, segments: Segments, fit: Fit, extensions: Collection[str]) -> Doubts:
-    """The doubts about the fit of all samples with these extensions of K06."""
-    assessment = explained(trace, segments, fit)
+def doubts(
+    trace: Trace, segments: Segments, fit: Fit, extensions: Collection[str], air: AirNoise | None = None
+) -> Doubts:
+    """The doubts about the fit of all samples with these extensions of K06. air: of the same samples."""
+    assessment = explained(trace, segments, fit, air)
     found = causes(trace, segments, fit, assessment)
     shaking = steady_noise(trace.depth)
     if not assessment.ok and shaking * fit.parameters.get("coupling_stiffness") > assessment.noise:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace
@@ -91,14 +92,20 @@ class Explained:
         )
 
 
-def explained(trace: Trace, segments: Segments, fit: Fit) -> Explained:
-    """Compares the residuals of a fit of all samples with the noise."""
+def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | None = None) -> Explained:
+    """Compares the residuals of a fit of all samples with the noise.
+
+    air_noise: of the same samples. Slow noise that it supports may be in tissue, too.
+    """
     residuals = trace.force - fit.misfit.forces(fit.parameters)
     air = in_air(trace, segments, fit)
     calm = trace.force[air] - (0.0 if trace.time is None else fit.parameters.nuisance[1] * trace.time[air])
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)
     peak = float(np.max(np.abs(trace.force)))
-    blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)))
+    slow = 0.0
+    if air_noise is not None and air_noise.supports(*fit.noise.most_likely()):
+        slow = fit.noise.slow_and_white()[0]
+    blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)), slow)
     signs = residuals[residuals != 0] > 0
     up, n = int(signs.sum()), max(len(signs), 1)
     squares = float(np.mean(blocks.left**2)) if len(blocks.left) else 0.0
@@ -135,7 +142,9 @@ def _surface(trace: Trace, segments: Segments, fit: Fit) -> float:
     return min(model, seen) if model > trace.depth[0] else seen
 
 
-def _blocks(trace: Trace, segments: Segments, fit: Fit, residuals: Array, calm: Array, noise: float) -> Blocks:
+def _blocks(
+    trace: Trace, segments: Segments, fit: Fit, residuals: Array, calm: Array, noise: float, slow: float
+) -> Blocks:
     inside = trace.depth > _surface(trace, segments, fit)
     length = max(SHORTEST, int(inside.sum()) // BLOCKS)
     edges, owners = [], []
@@ -145,7 +154,7 @@ def _blocks(trace: Trace, segments: Segments, fit: Fit, residuals: Array, calm: 
             edges.append((int(rows[start]), int(rows[start + length - 1]) + 1))
             owners.append(number)
     left = np.array([float(np.median(residuals[start:end])) for start, end in edges])
-    spread = MEDIAN * noise**2 / length
+    spread = MEDIAN * noise**2 / length + slow**2
     if len(calm) >= 4 * length:
         medians = np.median(calm[: len(calm) // length * length].reshape(-1, length), axis=1)
         spread = max(spread, float(np.var(medians)))

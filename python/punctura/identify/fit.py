@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.identify.noise import NoiseOfFit
+from punctura.identify.noise import Mixture, NoiseOfFit
 from punctura.identify.parameters import LATE, Free, Parameters
 from punctura.identify.sensor import SensedModel
+from punctura.identify.whitening import Whitening
 from punctura.trace import Trace, TraceError
 from punctura.trace.air import spread
 
@@ -34,15 +35,17 @@ class Misfit:
         used: NDArray[np.bool_] | None = None,
         zero: tuple[float, float] = (-np.inf, np.inf),
         depth_error: DepthError | None = None,
+        whitening: Whitening | None = None,
     ) -> None:
         """used: (n,), the samples that count; all samples move the needle. zero: what the air tells of it, N.
 
-        depth_error: what the noise of the depth does to the force.
+        depth_error: what the noise of the depth does to the force. whitening: of correlated noise of the force.
         """
         self.trace = trace
         self.zero = zero
         self.depth_error = depth_error or DepthError(np.zeros(len(trace)), np.ones(len(trace)))
         self.used = np.ones(len(trace), bool) if used is None else used
+        self.whitening = whitening
         self._model = SensedModel(parameters.needle, trace.depth, trace.time)
         self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
         if trace.time is not None:
@@ -78,7 +81,13 @@ class Misfit:
         return self._weighted(blurred(free.chain(by_all, u), blur))
 
     def _weighted(self, columns: Array) -> Array:
-        return np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
+        kept = np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
+        return kept if self.whitening is None else self.whitening(kept)
+
+    def whitened(self, parameters: Parameters, noise: Mixture | None) -> Misfit:
+        """The same misfit, in which noise of this mixture is white; None: as it is measured."""
+        whitening = None if noise is None else Whitening(noise, int(self.used.sum()))
+        return Misfit(self.trace, parameters, self.used, self.zero, self.depth_error, whitening)
 
     def with_depth_error(self, parameters: Parameters) -> Misfit:
         """The same misfit, with what the noise of the depth does to the force near these parameters."""
@@ -147,13 +156,22 @@ class Fit:
     @property
     def rmse(self) -> float:
         """Root mean square of model less measured force at the used samples, N; each of them counts the same."""
-        weights = self.misfit.depth_error.weights[self.misfit.used]
-        return float(np.sqrt(np.mean((self.residuals / weights) ** 2)))
+        left = self.misfit.forces(self.parameters) - self.misfit.trace.force
+        return float(np.sqrt(np.mean(left[self.misfit.used] ** 2)))
 
     @property
     def weighted_rmse(self) -> float:
-        """Root mean square of the residuals, N, whose weights say what the noise of the depth adds: for rules."""
+        """Root mean square of the residuals, N, weighted for the noise of the depth, and whitened: for rules."""
         return float(np.sqrt(self.sse / len(self.residuals)))
+
+    @property
+    def measured(self) -> Fit:
+        """The same parameters, with the residuals as they are measured: not whitened."""
+        if self.misfit.whitening is None:
+            return self
+        misfit = self.misfit.whitened(self.parameters, None)
+        residuals, jacobian = misfit.residuals(self.free, self.u), misfit.jacobian(self.free, self.u)
+        return replace(self, misfit=misfit, residuals=residuals, jacobian=jacobian)
 
     @cached_property
     def noise(self) -> NoiseOfFit:

@@ -11,6 +11,7 @@ import numpy as np
 from punctura import Needle, Scene
 from punctura._core import longest_name
 from punctura.files.names import as_text
+from punctura.identify.air_noise import AirNoise
 from punctura.identify.choose import choose
 from punctura.identify.criteria import Candidate
 from punctura.identify.depth_noise import noise_not_used, with_quiet_depth
@@ -29,6 +30,7 @@ from punctura.identify.records import IdentificationRecord
 from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned, weighted
+from punctura.identify.slow_noise import with_slow_noise
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
 from punctura.one_thread import one_thread
@@ -141,17 +143,18 @@ def _identified(
     choice = choose(few, segments if all_used else segment(few), needle, count, report, most=most, rig=rig)
     found: tuple[Estimate, ...] | None = None
     better: list[tuple[Model, Parameters]] = []
+    air = choice.search.rule.air if all_used else AirNoise(trace, segments)
     least, more = np.inf, False  # the squares of the last fit, N^2; whether there are better optima still
     while found is None:
-        few_fit = final = choice.current.fit
+        few_fit = plain = choice.current.fit
+        points = [point for model, point in better if model == choice.current.model]
         if not all_used or trace.depths is not None:
             report("all samples")
-            final = _with_all_samples(
-                trace, few_fit, [point for model, point in better if model == choice.current.model]
-            )
+            plain = _with_all_samples(trace, few_fit, points)
         report("intervals")
         others = (few_fit.parameters, *few_fit.others)
-        holds = explained(trace, segments, final).ok  # otherwise no search makes the intervals hold
+        holds = explained(trace, segments, plain, air).ok  # otherwise no search makes the intervals hold
+        final = with_slow_noise(plain, air, points) if holds else plain
         try:
             found = estimates(final, others, outwards=holds)
         except BetterPoint as point:
@@ -168,8 +171,8 @@ def _identified(
     known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
     late = {one.name: one for one in found if one.name in LATE}
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
-    effective = effective_samples(final.residuals, len(final.u))
-    doubt = doubts(trace, segments, final, choice.current.extensions)
+    effective = effective_samples(plain.residuals, len(plain.u))
+    doubt = doubts(trace, segments, plain, choice.current.extensions, air)
     advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
     advice = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *advice)
     advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice, *([MORE_OPTIMA] if more else []))

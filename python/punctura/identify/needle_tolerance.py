@@ -79,7 +79,7 @@ def _values_with(base: Parameters, of: Fit) -> Array:
     old = of.misfit
     try:
         start = old.free(of.free.names, base).parameters(of.u)
-        misfit = Misfit(old.trace, start, old.used, old.zero, old.depth_error)
+        misfit = Misfit(old.trace, start, old.used, old.zero, old.depth_error, old.whitening)
         end = fit(misfit, of.free.names, start)
     except ValueError:  # TraceError; or a friction that jams this needle
         return np.full(len(of.u), np.nan)

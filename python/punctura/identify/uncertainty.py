@@ -30,7 +30,10 @@ class Uncertainty:
         kept = np.maximum(values, 1e-12 * max(values.max(initial=0), 1e-300))
         inverse = (vectors / kept) @ vectors.T / np.outer(scale, scale)
         correlated = fit.noise.spread(inverse)
-        correlated += inverse @ (_between_samples(fit) + _of_depth(fit) + _of_steps(fit)) @ inverse
+        whitening = fit.misfit.whitening
+        by_force = fit.jacobian if whitening is None else whitening.back(fit.jacobian)  # what a sample's error moves
+        shared = _between_samples(fit.measured, by_force) + _of_depth(fit, by_force) + _of_steps(fit, by_force)
+        correlated += inverse @ shared @ inverse
         plain = np.maximum(self.variance * np.diag(inverse), 1e-300)
         self.covariance = correlated + np.diag(np.maximum(plain - np.diag(correlated), 0.0))
         self.inflation = np.diag(self.covariance) / plain  # of each parameter's variance
@@ -42,22 +45,23 @@ class Uncertainty:
         return np.asarray(self.covariance / np.outer(errors, errors))
 
 
-def _of_depth(fit: Fit) -> Array:
+def _of_depth(fit: Fit, by_force: Array) -> Array:
     """What adds to J^T V J (p, p), because neighbours share the error of a depth whose noise is smoothed.
 
-    What it does to a sample alone is part of the noise already, by the weights.
+    What it does to a sample alone is part of the noise already, by the weights. by_force (n, p): J, or what stands for
+    it where the noise is whitened.
     """
     misfit = fit.misfit
     if misfit.trace.depths is None:
-        return np.zeros((fit.jacobian.shape[1],) * 2)
+        return np.zeros((by_force.shape[1],) * 2)
     errors = misfit.depth_errors(fit.parameters)
     errors = (misfit.depth_error.weights * (errors - errors.mean(axis=0)))[:, misfit.used]
-    shared = fit.jacobian.T @ errors.T / np.sqrt(len(errors) - 1)
-    own = fit.jacobian.T @ (errors.var(axis=0, ddof=1)[:, None] * fit.jacobian)
+    shared = by_force.T @ errors.T / np.sqrt(len(errors) - 1)
+    own = by_force.T @ (errors.var(axis=0, ddof=1)[:, None] * by_force)
     return np.asarray(shared @ shared.T - own)
 
 
-def _of_steps(fit: Fit) -> Array:
+def _of_steps(fit: Fit, by_force: Array) -> Array:
     """What adds to J^T V J (p, p), because equal readings of the force in turn have one rounding error.
 
     Noise that is larger than the steps makes the roundings independent.
@@ -65,12 +69,12 @@ def _of_steps(fit: Fit) -> Array:
     force = fit.misfit.trace.force[fit.misfit.used]
     rounded = rounding(force)
     if rounded < ROUND * fit.weighted_rmse:
-        return np.zeros((fit.jacobian.shape[1],) * 2)
-    shared = np.add.reduceat(fit.jacobian, equal_runs(force)[:-1], axis=0)
-    return np.asarray(rounded**2 * (shared.T @ shared - fit.jacobian.T @ fit.jacobian))
+        return np.zeros((by_force.shape[1],) * 2)
+    shared = np.add.reduceat(by_force, equal_runs(force)[:-1], axis=0)
+    return np.asarray(rounded**2 * (shared.T @ shared - by_force.T @ by_force))
 
 
-def _between_samples(fit: Fit) -> Array:
+def _between_samples(fit: Fit, by_force: Array) -> Array:
     """What adds to J^T V J (p, p), because a sample shows the force at one moment, not where the wall popped before it.
 
     The place of the pop within the step h is unknown, with a variance of h^2 / 12.
@@ -81,6 +85,7 @@ def _between_samples(fit: Fit) -> Array:
         at = int(np.argmax(depth >= fit.u[k]))  # this coordinate is the depth where the wall pops
         if at == 0:
             continue  # the trace ends in front of the pop
-        row = max(jacobian[at - 1], jacobian[at], key=lambda one: abs(float(one[k])))
-        added += np.outer(row, row) * (row[k] * (depth[at] - depth[at - 1])) ** 2 / 12
+        row = max(at - 1, at, key=lambda one: abs(float(jacobian[one, k])))
+        moved = jacobian[row, k] * (depth[at] - depth[at - 1])
+        added += np.outer(by_force[row], by_force[row]) * moved**2 / 12
     return added

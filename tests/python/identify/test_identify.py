@@ -15,9 +15,8 @@ import threadpoolctl
 from punctura.errors import IncompleteCallError
 from punctura.identify import identify
 from punctura.identify import scene as identified_scene
-from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Misfit, fit
-from punctura.identify.model import OWN, Model, extensions
+from punctura.identify.model import OWN
 from punctura.identify.moves import with_pops_moved
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import Free, Parameters, default_coupling, default_membrane
@@ -263,26 +262,6 @@ def test_one_tissue_is_chosen_where_the_walls_are_alike_and_not_where_they_diffe
     other = pn.Membrane(stiffness=300, precompression=0.2, friction=0.35, thickness=1.5e-3)
     differ = identify(two_walls(second=other), NEEDLE)
     assert "one tissue" not in differ.extensions
-
-
-def test_the_smaller_model_wins_a_tie_and_a_larger_one_must_predict_what_it_did_not_see(monkeypatch):
-    made = trace(noise=0.01)
-    rule = Rule(made, segment(made))
-    small, large = Model(1), Model(1, (extensions(NEEDLE)[0],))
-    row = default_membrane()
-    row[:5] = [5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness]
-    start = Parameters(NEEDLE, np.array([row]), default_coupling(4000))
-    one = candidate("K06", small, fit(Misfit(made, start), small.names, start))
-    two = candidate("curved", large, fit(one.fit.misfit, large.names, large.start(one.fit.parameters, weak=True)))
-    assert not rule.prefers(two, one) and rule.prefers(one, two)
-    monkeypatch.setattr(Candidate, "worth", lambda self, effective: type("W", (), {"bic": -10.0 * len(self.fit.u)})())
-    errors = {one: 1.0, two: 1.5}
-    monkeypatch.setattr(Rule, "held_out_error", lambda self, c: errors[c])
-    assert not rule.prefers(two, one)
-    errors[two] = 1.0
-    assert rule.prefers(two, one) and not rule.prefers(one, two)
-    errors[two] = None
-    assert not rule.prefers(two, one)
 
 
 def test_held_out_samples_are_never_those_of_a_pop():

@@ -39,7 +39,7 @@ def test_a_drift_is_not_taken_for_a_relaxation_and_is_named(monkeypatch):
     two = candidate("relaxation", large, min(ends, key=lambda end: end.sse))
     assert not rule.prefers(two, one)
     assert any("drifts slowly" in text for text in verdicts((), made, segment(made), one.fit, rule.air))
-    monkeypatch.setattr(Rule, "_may_be_drift", lambda self, new, old: False)
+    monkeypatch.setattr(Rule, "_may_be_slow_noise", lambda self, new, old: False)
     assert rule.prefers(two, one)  # the noise is of the kind that looks like a relaxation
 
 
