@@ -23,7 +23,8 @@ from program import ROOT, ProgramError, build, tool
 
 STORED = Path(__file__).with_name("instructions.json")
 KINDS = (
-    "1-D paper", "1-D exact", "3-D paper", "3-D exact", "3-D exact, tissue",
+    "1-D paper", "1-D exact", "3-D paper", "3-D exact", "3-D paper, two membranes", "3-D exact, two membranes",
+    "3-D exact, tissue",
     "servo step paper", "servo step exact", "servo step exact, line fit",
 )  # fmt: skip
 FEW, MANY = 500, 4_500  # ticks: the difference is one whole stroke, without the start of the program

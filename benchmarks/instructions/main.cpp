@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   const std::string kind = argv[1];
   const auto ticks = static_cast<std::size_t>(std::atol(argv[2]));
   const Solver solver = kind.find("paper") != std::string::npos ? Solver::paper : Solver::exact;
-  Scene scene = bench::scene_of(1, solver);
+  Scene scene = bench::scene_of(kind.find("two membranes") != std::string::npos ? 2 : 1, solver);
   if (kind.find("line fit") != std::string::npos) {
     scene.servo.conditioning = Conditioning::line_fit;
     scene.servo.encoder_step = 5.5e-5;

@@ -176,7 +176,9 @@ class ConditionedProxies {
     if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
     const bool first = !conditioner_.started();
     const Vector tip = conditioner_.step(position);
-    const Vector direction = from_motion_ ? from_motion_->step(tip) : axis;
+    Vector of_motion;
+    if (from_motion_) of_motion = from_motion_->step(tip);
+    const Vector& direction = from_motion_ ? of_motion : axis;
     if (sub_steps_ > 1 && !first) step_between(proxies, tip, direction);
     tip_ = tip;
     Vector force;
