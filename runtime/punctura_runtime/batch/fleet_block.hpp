@@ -26,7 +26,7 @@ struct FleetSetup {
 /// all its ticks again, alone, from its history: 16 bytes for each step since its start.
 class FleetBlock final : public LaneTrials {
  public:
-  /// The trials of a block: one vector, so that many threads find work; without lanes, enough for a thread.
+  /// The trials of a block: two vectors, so that many threads find work; without lanes, enough for a thread.
   static std::size_t width(const LineCode& code) noexcept { return code.fleet_exact ? 2 * code.lanes : 8; }
 
   explicit FleetBlock(const FleetSetup& setup);

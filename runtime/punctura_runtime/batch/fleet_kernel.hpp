@@ -8,7 +8,6 @@
 #include "punctura_runtime/batch/fleet_lanes.hpp"
 #include "punctura_runtime/batch/isa.hpp"
 #include "punctura_runtime/batch/scene_lanes.hpp"
-#include "punctura_runtime/batch/twice.hpp"
 
 namespace punctura::batch {
 
@@ -71,7 +70,7 @@ class FleetVectors final : public FleetLanes {
 
 template <typename Isa, typename Solver>
 std::unique_ptr<FleetLanes> make_fleet(SceneBlock& block) {
-  return std::make_unique<FleetVectors<Simd<WithPhases<Twice<Isa>>>, Solver>>(block);
+  return std::make_unique<FleetVectors<Simd<WithPhases<Isa>>, Solver>>(block);
 }
 
 }  // namespace punctura::batch

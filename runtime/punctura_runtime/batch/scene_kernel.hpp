@@ -8,7 +8,6 @@
 #include "punctura_runtime/batch/isa.hpp"
 #include "punctura_runtime/batch/run_summary.hpp"
 #include "punctura_runtime/batch/scene_lanes.hpp"
-#include "punctura_runtime/batch/twice.hpp"
 
 namespace punctura::batch {
 
@@ -116,7 +115,7 @@ class SceneVector {
 
 template <typename Isa, typename Solver>
 void run_scene(SceneBlock& block, RunOwner& owner) {
-  using V = Simd<WithPhases<Twice<Isa>>>;
+  using V = Simd<WithPhases<Isa>>;
   std::vector<std::unique_ptr<SceneVector<V, Solver>>> vectors;
   for (std::size_t start = 0; start < block.trials; start += V::lanes)
     vectors.push_back(std::make_unique<SceneVector<V, Solver>>(block, owner, start));
