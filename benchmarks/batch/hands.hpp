@@ -1,7 +1,10 @@
 // Trials with a simulated hand: Experiment tick by tick, and each instruction set.
 #pragma once
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/batch/scene_batch.hpp"
@@ -31,6 +34,19 @@ inline batch::SceneBatch hands(std::size_t trials, Solver solver, bool tissue) {
   }
   all.varied.push_back(friction);
   return all;
+}
+
+/// Only so many trials, once, on all processors: a million, or a few to count instructions.
+inline int run_hands(std::size_t trials, Solver solver) {
+  const batch::SceneBatch all = hands(trials, solver, false);
+  batch::SceneResults results;
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t computed = std::clock();
+  batch::run(all, results, {});
+  std::printf("%zu trials of a second in %.2f s, %.2f s of processor time\n", trials,
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+              static_cast<double>(std::clock() - computed) / CLOCKS_PER_SEC);
+  return 0;
 }
 
 /// Experiment tick by tick without any summary, then batches with theirs. Exits with 3 if the work of a trial differs

@@ -11,8 +11,12 @@ using namespace punctura::bench_batch;
 
 int main(int argc, char** argv) {
   double seconds = 2;
-  for (int i = 1; i + 1 < argc; i += 2)
+  for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--seconds") seconds = std::atof(argv[i + 1]);
+    for (const Solver solver : {Solver::paper, Solver::exact})
+      if (argv[i] == std::string("--") + name_of(solver))
+        return run_hands(static_cast<std::size_t>(std::atol(argv[i + 1])), solver);
+  }
   std::printf("{\n  \"compiler\": \"%s\", \"flags\": \"%s\", \"rows\": [", BENCH_COMPILER, BENCH_FLAGS);
   bool first = true;
   for (const auto& [trials, ticks] : {std::pair<std::size_t, std::size_t>{32, 4000}, {1024, 800}, {100'000, 64}}) {

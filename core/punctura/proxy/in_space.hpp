@@ -115,7 +115,8 @@ template <typename L, typename C, typename Scalar>
     if (!state.started) state.p = p;
     return std::as_const(state.p);
   } else {
-    return select(state.started, state.p, p);
+    if (!all(state.started)) state.p = select(state.started, state.p, p);
+    return Vector3<Scalar>(state.p);
   }
 }
 

@@ -44,7 +44,7 @@ struct Phases {
 
 template <typename V>
 constexpr auto inside(const Phases<V>& phase) noexcept {
-  return !(phase == Phase::outside) && !(phase == Phase::barred);
+  return phase.number > Phases<V>(Phase::outside).number && phase.number < Phases<V>(Phase::barred).number;
 }
 template <typename M, Lanes V>
 constexpr Phases<V> select(const M& mask, const Phases<V>& a, const Phases<V>& b) noexcept {

@@ -116,8 +116,11 @@ class BasicForceLimiter {
     using namespace lane;
     count(elapsed);
     state.gain = min(Scalar(1), Scalar(state.gain + ramp_step_));
-    act(Limit::ramp, state.gain < 1 && !wanted.isZero());
-    Vector force = state.gain * wanted;
+    Vector force = wanted;
+    if (const Truth rises = state.gain < 1; any(rises)) {
+      act(Limit::ramp, rises && !wanted.isZero());
+      force = state.gain * wanted;
+    }
 
     feel(motor_temperature);
     ceiling_ = permitted();
@@ -202,10 +205,14 @@ class BasicForceLimiter {
   void count(const Scalar& elapsed) noexcept {
     using namespace lane;
     const Truth known = elapsed >= 0 && elapsed <= std::numeric_limits<Lane<Scalar>>::max();
-    // Before the first tick of a run no time has passed. A period of rest for each run would add up over many runs,
-    // and so would a period of rest for each wrong time stamp.
-    const Truth no_time = !known && !(elapsed == unknown_time) && state.held_square == 0;
-    budget_.spend(state.held_square, select(known, elapsed, select(no_time, Scalar(0), period_)));
+    Scalar time = elapsed;
+    if (!all(known)) {
+      // Before the first tick of a run no time has passed. A period of rest for each run would add up over many runs,
+      // and so would a period of rest for each wrong time stamp.
+      const Truth no_time = !known && !(elapsed == unknown_time) && state.held_square == 0;
+      time = select(known, elapsed, select(no_time, Scalar(0), period_));
+    }
+    budget_.spend(state.held_square, time);
     state.held_square = Scalar(0);
     limit_ = {};
   }

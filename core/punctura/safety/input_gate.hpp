@@ -64,7 +64,7 @@ class BasicInputGate {
     if (state.started) {
       if (!(s.time >= state.time)) return Fault::clock;
       if (!in_time(s.time)) return Fault::missed_deadline;
-      if (!within_reach(position, s.time)) return Fault::position_jump;
+      if (!within_reach(position, s.time - state.fresh_time)) return Fault::position_jump;
     }
     if (!state.started || s.sequence != state.sequence) state.fresh_time = s.time;
     if (!(s.time - state.fresh_time <= limits_.stale)) return Fault::stale_sample;
@@ -77,8 +77,11 @@ class BasicInputGate {
   Mask<Scalar> step(const Vector& position, const Time& time) noexcept
     requires Lanes<Scalar>
   {
-    const auto good = is_place(position) && (!state.started || (in_time(time) && within_reach(position, time)));
-    state = {Mask<Scalar>(true), time, time, 0, position};
+    const auto good =
+        is_place(position) && (!state.started || (in_time(time) && within_reach(position, time - state.time)));
+    state.started = Mask<Scalar>(true);
+    state.time = time;
+    state.position = position;
     return good;
   }
   /// The next sample of these lanes is their first.
@@ -97,11 +100,11 @@ class BasicInputGate {
 
  private:
   Mask<Scalar> in_time(const Time& time) const noexcept { return time - state.time <= limits_.deadline; }
-  /// Whether a hand can have come here since the last reading. Two readings that arrive close together can be a period
-  /// apart. Therefore the time is at least T.
-  Mask<Scalar> within_reach(const Vector& position, const Time& time) const noexcept {
+  /// Whether a hand can have come here since the last reading, `elapsed` s ago. Two readings that arrive close together
+  /// can be a period apart. Therefore the time is at least T.
+  Mask<Scalar> within_reach(const Vector& position, const Time& elapsed) const noexcept {
     using namespace lane;
-    const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, Time(time - state.fresh_time)));
+    const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, elapsed));
     return (position - state.position).squaredNorm() <= farthest * farthest;
   }
 

@@ -136,12 +136,13 @@ void LaneTrials::fill(std::size_t lane, std::size_t tick, std::size_t ticks) noe
   set(b.first_tick, lane, tick);
   const auto time = [&](std::size_t k) { return static_cast<double>(k) * own.period; };
   if (auto* strokes = std::get_if<StrokesMotion>(&own.motion)) {
+    const double last = time(tick + ticks - 1);
+    if (last < own.stroke_ends) return;
     const auto& stroke = strokes->segment(time(tick));
-    const bool made_stroke = b.makes_stroke.of[lane] != 0;
-    const bool makes_stroke = &stroke == &strokes->segment(time(tick + ticks - 1));
+    own.stroke_ends = strokes->next_begin();
+    const bool makes_stroke = last < own.stroke_ends;
     set(b.makes_stroke, lane, makes_stroke ? 1 : 0);
     if (makes_stroke) {
-      if (made_stroke && stroke.begin == b.stroke.begin.of[lane]) return;  // no two strokes begin together
       set(b.stroke.begin, lane, stroke.begin);
       set(b.stroke.duration, lane, stroke.duration);
       set(b.stroke.from, lane, stroke.from);

@@ -34,6 +34,7 @@ class LaneTrials : public LaneOwner {
     PositionConditioner<double> conditioner;
     EntryDirection<double> from_motion;
     std::vector<LaneWall> walls;
+    double stroke_ends = 0;  ///< s: SceneBlock::stroke holds until the next movement begins
   };
 
   /// width: the most trials, a multiple of the lanes of a vector.

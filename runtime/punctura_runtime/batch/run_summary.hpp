@@ -1,6 +1,7 @@
 // The numbers of a run, computed while it runs. They are those of punctura.compare. Scalar: a number, or lanes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -69,15 +70,15 @@ class BasicRunSummary {
   void add(const RunTick<Scalar>& t, Laws&& laws, Now&& now, Direction&& direction) noexcept {
     using namespace lane;
     const Scalar depth = (t.tip - point_).dot(normal_);
-    depth_ = larger(depth_, depth);
-    peak_ = larger(peak_, resistance(t.model_force, t.axis));
-    if (device_) felt_peak_ = larger(felt_peak_, resistance(t.force, t.axis));
-    limited_ = limited_ + select(t.limited, Scalar(1), Scalar(0));
+    depth_ = max(depth_, depth);
+    peak_ = max(peak_, resistance(t.model_force, t.axis));
+    if (device_) felt_peak_ = max(felt_peak_, resistance(t.force, t.axis));
+    if (any(t.limited)) limited_ = limited_ + select(t.limited, Scalar(1), Scalar(0));
 
     Truth is_inside(false), leaves(false);
     for (std::size_t i = 0; i < membranes_.size(); ++i) {
       MembraneSummary<Scalar>& membrane = membranes_[i];
-      const ContactTick<Scalar> tick = now(i);
+      const ContactTick<Scalar>& tick = now(i);
       is_inside = is_inside || tick.acts;
       const Scalar number(static_cast<double>(i));
       membrane.contact.step(
@@ -90,13 +91,14 @@ class BasicRunSummary {
     }
     inside_ = inside_ + select(is_inside, Scalar(1), Scalar(0));
 
-    const Truth works = touched_ >= 0 && !left_;
-    const Scalar way = started_ ? (t.tip - last_tip_).dot(t.axis) : Scalar(0);
-    now_work_ = select(works, Scalar(now_work_ - t.model_force.dot(t.axis) * way), now_work_);
-    const Truth deepest = works && !(depth <= deepest_);
-    deepest_ = select(deepest, depth, deepest_);
-    work_ = select(deepest, now_work_, work_);
-    left_ = left_ || leaves;
+    if (const Truth works = touched_ >= 0 && !left_; any(works)) {
+      const Scalar way = started_ ? (t.tip - last_tip_).dot(t.axis) : Scalar(0);
+      now_work_ = select(works, Scalar(now_work_ - t.model_force.dot(t.axis) * way), now_work_);
+      const Truth deepest = works && !(depth <= deepest_);
+      deepest_ = select(deepest, depth, deepest_);
+      work_ = select(deepest, now_work_, work_);
+      left_ = left_ || leaves;
+    }
 
     for (std::size_t i = 0; i < membranes_.size(); ++i) {
       MembraneSummary<Scalar>& membrane = membranes_[i];
@@ -113,9 +115,11 @@ class BasicRunSummary {
   template <typename Pick>
   RunNumbers numbers(double ticks, double period, Pick&& pick) const noexcept {
     RunNumbers n;
-    n.peak = pick(peak_);
-    n.felt_peak = pick(felt_peak_);
-    n.depth = pick(depth_);
+    const auto found = [&](const Scalar& most) { return pick(most) == -infinity ? nothing : pick(most); };
+    const auto root = [](double square) { return std::copysign(std::sqrt(std::abs(square)), square); };
+    n.peak = root(found(peak_));
+    n.felt_peak = root(found(felt_peak_));
+    n.depth = found(depth_);
     n.work = pick(work_);
     n.dwell = pick(inside_) * period;
     n.limited = ticks == 0 ? 0 : pick(limited_) / ticks;
@@ -133,11 +137,12 @@ class BasicRunSummary {
     using namespace lane;
     return select(b > a || !(a == a), b, a);
   }
-  /// The size of a force on the hand, N; negative if it pulls the needle in.
+  /// The square of the size of a force on the hand, N^2; negative if the force pulls the needle in. Its root comes at
+  /// the end: the root of the largest is the largest root.
   static Scalar resistance(const Vector& force, const Vector& axis) noexcept {
     using namespace lane;
-    const Scalar size = force.norm();
-    return select(force.dot(axis) > 0, Scalar(-size), size);
+    const Scalar square = force.squaredNorm();
+    return select(force.dot(axis) > 0, Scalar(-square), square);
   }
   static void pop(MembraneSummary<Scalar>& m, const Scalar& time, const Truth& lanes, const Scalar& drop,
                   const Scalar& through) noexcept {
@@ -150,14 +155,17 @@ class BasicRunSummary {
     m.until = select(lanes, Scalar(time + overshoot_time), m.until);
   }
 
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   std::span<MembraneSummary<Scalar>> membranes_;
   bool device_, started_ = false;
   Vector point_, normal_;
-  Scalar peak_{nothing}, felt_peak_{nothing}, depth_{nothing}, work_{0};
+  // peak_, felt_peak_: see resistance(). max() skips what is no number.
+  Scalar peak_{-infinity}, felt_peak_{-infinity}, depth_{-infinity}, work_{0};
   Scalar inside_{0}, limited_{0};  // ticks
   Scalar touched_{-1};             // number of the membrane that was touched first; -1: none
   Truth left_{false};
-  Scalar now_work_{0}, deepest_{-std::numeric_limits<double>::infinity()};
+  Scalar now_work_{0}, deepest_{-infinity};
   Vector last_tip_{};
 };
 

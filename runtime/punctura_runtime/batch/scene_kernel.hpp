@@ -66,11 +66,8 @@ class SceneVector {
     lanes_.step(k);
     summary_.add(
         {lanes_.time(), lanes_.tip(), same<V>(axis_), lanes_.model_force(), lanes_.force(), lanes_.limited()}, *this,
-        [&](std::size_t i) {
-          const SpaceTick<V>& t = lanes_.tick(i);
-          return ContactTick<V>{t.depth, t.axial_force, t.band.lower, inside(t.phase), t.phase == Phase::outside};
-        },
-        [&](std::size_t i) { return lanes_.tick(i).direction; });
+        [&](std::size_t i) -> const ContactTick<V>& { return lanes_.tick(i); },
+        [&](std::size_t i) { return lanes_.entry_direction(i); });
     if (block_.keeps_force) store(lanes_.model_force(), block_.force[k], start_);
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "punctura/lab/events/contact.hpp"
 #include "punctura/lab/plant/plant.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
@@ -110,7 +111,8 @@ class SceneLanes {
     renew(limiter_, Limiter({}, number(block_.period)));
     limiter_.set_spent(select(lanes, V(0), spent));
     // A lane makes one step of the plant in a period: very stiff grips need more.
-    invalid_ = (invalid_ && !lanes) || number(block_.tip_steps) > 1;
+    valid_ = (valid_ || lanes) && number(block_.tip_steps) <= 1;
+    time_ = select(lanes, V(0), time_);  // no time has passed in a first tick
     active_ = active_ && !lanes;
     for (State& state : states_) restart(state, lanes);
     params_.clear();
@@ -121,6 +123,7 @@ class SceneLanes {
 
   /// Computes what the block does not have of the inputs of these ticks.
   void prepare(std::size_t ticks) noexcept {
+    for (std::size_t i = 0; i < V::lanes; ++i) noise_[i] = block_.noise[start_ + i].from(block_.first_tick[start_ + i]);
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
     const Truth given = number(block_.makes_stroke) == 0;
     if (all(given)) return;
@@ -131,9 +134,12 @@ class SceneLanes {
     const V tick = V::load(first), period = number(block_.period);
     for (std::size_t k = 0; k < ticks; ++k) {
       SceneBlock::Inputs& to = block_.inputs[k];
-      const BasicDesired<V> now = stroke.at((tick + V(static_cast<double>(k))) * period);
-      store(select(given, at<V>(to.position, start_), now.position), to.position, start_);
-      store(select(given, at<V>(to.velocity, start_), now.velocity), to.velocity, start_);
+      BasicDesired<V> now = stroke.at((tick + V(static_cast<double>(k))) * period);
+      if (any(given))
+        now = {select(given, at<V>(to.position, start_), now.position),
+               select(given, at<V>(to.velocity, start_), now.velocity)};
+      store(now.position, to.position, start_);
+      store(now.velocity, to.velocity, start_);
     }
   }
 
@@ -141,33 +147,36 @@ class SceneLanes {
   void step(std::size_t k) noexcept {
     const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
     const SceneBlock::Inputs& inputs = block_.inputs[k];
-    const Truth first = number_ == 0;
     const V time = block_.has_hand ? number_ * number(block_.period) : number_ / number(block_.rate);
     Vector measured = at<V>(inputs.position, start_);
     if (block_.has_hand) {
       measured = encoded(tip_.x, number(block_.encoder_step), at<V>(block_.phase, start_));
-      invalid_ = invalid_ || !gate_.step(measured, time);
+      valid_ = valid_ && gate_.step(measured, time);
     }
     measured_ = measured;
 
     const Vector before = conditioned_, tip = condition(measured), axis = direction(tip, inputs.axis);
     conditioned_ = tip;
-    if (block_.sub_steps > 1 && !all(first)) step_between(select(first, tip, before), axis);
+    if (block_.sub_steps > 1) step_between(select(number_ == 0, tip, before), axis);
     advance_proxies(tip, axis);
     model_force_ = {};
-    Truth outside(true);
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      model_force_ += ticks_[i].force;
-      outside = outside && ticks_[i].phase == Phase::outside;
-    }
-    invalid_ = invalid_ || !(model_force_.maxAbs() <= 1e100);
+    for (const State& state : states_) model_force_ += state.f;
+    valid_ = valid_ && model_force_.squaredNorm() <= 1e200;
     if (block_.has_hand) {
-      limiter_.reset(outside && !active_);
-      active_ = active_ || outside;
       // As the servo step fades: + 0 makes a zero of -0.
-      const Vector wanted = number(block_.force_scale) * model_force_ + Vector();
-      force_ = limiter_.step(select(active_, wanted, Vector()), V(0), select(first, V(0), time - time_));
-      move(k, force_);
+      Vector wanted = number(block_.force_scale) * model_force_ + Vector();
+      if (!all(active_)) {
+        Truth outside(true);
+        for (const ContactTick<V>& tick : ticks_) outside = outside && tick.in_front;
+        limiter_.reset(outside && !active_);
+        active_ = active_ || outside;
+        wanted = select(active_, wanted, Vector());
+      }
+      force_ = limiter_.step(wanted, V(0), time - time_);
+      const BasicDeviceDynamics<V> device{V(0), V(0), V(0), number(block_.max_force)};
+      const Vector tremor = tremor_.step(noise(k));
+      tip_.step(block_.response.of_each(number), device.saturate(force_), at<V>(inputs.position, start_) + tremor,
+                at<V>(inputs.velocity, start_));
     }
     time_ = time;
     number_ = number_ + V(1);
@@ -180,10 +189,11 @@ class SceneLanes {
   const Vector& model_force() const noexcept { return model_force_; }  ///< N
   const Vector& force() const noexcept { return force_; }              ///< of the device, N; 0 without a hand
   Truth limited() const noexcept { return limiter_.limit(); }          ///< a limit made the device's force smaller
-  const SpaceTick<V>& tick(std::size_t i) const noexcept { return ticks_[i]; }  ///< at membrane i
-  std::size_t size() const noexcept { return ticks_.size(); }                   ///< the number of membranes
+  const ContactTick<V>& tick(std::size_t i) const noexcept { return ticks_[i]; }        ///< at membrane i
+  const Vector& entry_direction(std::size_t i) const noexcept { return states_[i].b; }  ///< at membrane i
+  std::size_t size() const noexcept { return ticks_.size(); }                           ///< the number of membranes
   /// The lanes that have come near a fault since they started. Their results are void.
-  const Truth& invalid() const noexcept { return invalid_; }
+  Truth invalid() const noexcept { return !valid_; }
 
  private:
   using Law = SpaceLaw<V>;
@@ -244,27 +254,20 @@ class SceneLanes {
   }
   /// One step of all proxies, to this position (m).
   void advance_proxies(const Vector& position, const Vector& axis) noexcept {
-    for (std::size_t i = 0; i < states_.size(); ++i) ticks_[i] = Solver::step(params_[i], states_[i], position, axis);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const SpaceTick<V> t = Solver::step(params_[i], states_[i], position, axis);
+      ticks_[i] = {t.depth, t.axial_force, t.band.lower, inside(t.phase), t.phase == Phase::outside};
+    }
   }
 
   /// The noise of the tremor in tick k of the inputs.
   Vector noise(std::size_t k) const noexcept {
     alignas(64) double u[3][V::lanes];
     for (std::size_t i = 0; i < V::lanes; ++i) {  // compilers turn it into vectors
-      const Vector3d now = tremor_noise(block_.noise[start_ + i], block_.first_tick[start_ + i] + k);
+      const Vector3d now = tremor_noise(noise_[i], k);
       for (std::size_t j = 0; j < 3; ++j) u[j][i] = now[j];
     }
     return {V::load(u[0]), V::load(u[1]), V::load(u[2])};
-  }
-
-  /// Moves the plant in tick k of the inputs. force: of the device, N.
-  void move(std::size_t k, const Vector& force) noexcept {
-    const SceneBlock::Inputs& inputs = block_.inputs[k];
-    const auto number = [&](const LaneNumbers& numbers) { return at<V>(numbers, start_); };
-    const BasicDeviceDynamics<V> device{V(0), V(0), V(0), number(block_.max_force)};
-    const Vector tremor = tremor_.step(noise(k));
-    tip_.step(block_.response.of_each(number), device.saturate(force), at<V>(inputs.position, start_) + tremor,
-              at<V>(inputs.velocity, start_));
   }
 
   SceneBlock& block_;
@@ -274,13 +277,14 @@ class SceneLanes {
   BasicTremor<V> tremor_{typename BasicTremor<V>::Filter{}};
   LowPass<V, Vector> low_pass_ = LowPass<V, Vector>::of_gain(Truth(true), V(0));
   Vector measured_{}, conditioned_{}, model_force_{}, force_{};
-  Truth invalid_{false}, active_{false};
+  Truth valid_{true}, active_{false};
   V time_{0};
   BasicInputGate<V> gate_;
   Limiter limiter_;
   std::vector<Params> params_;
   std::vector<State> states_;
-  std::vector<SpaceTick<V>> ticks_;
+  std::vector<ContactTick<V>> ticks_;
+  TickNoise noise_[V::lanes];  // its number 0 is that of the tick of SceneBlock::inputs[0]
 };
 
 }  // namespace punctura::batch

@@ -44,7 +44,7 @@ const std::vector<std::size_t>& SceneTrials::run(RunScene code) {
 
 void SceneTrials::prepare(std::size_t tick, std::size_t ticks) noexcept {
   const auto* given = std::get_if<Positions>(&all_.motion);
-  for (std::size_t k = 0; k < ticks; ++k) {
+  for (std::size_t k = 0; k < ticks && (given || tick == 0); ++k) {  // the axis of a hand stays
     SceneBlock::Inputs& to = block_->inputs[k];
     to.sample_axis =
         given ? Vector3d(given->axis + static_cast<std::ptrdiff_t>(tick + k) * given->axis_stride) : all_.axis;

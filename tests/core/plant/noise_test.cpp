@@ -43,7 +43,7 @@ TEST_CASE("normal numbers have mean 0 and variance 1") {
 
 // The first numbers that others' SplitMix64 gives for the seed 0.
 static_assert(split_mix(0, 1) == 0xe220a8397b1dcdaf && split_mix(0, 2) == 0x6e789e6aa1b965f4);
-static_assert(TickNoise(1).at(2) == TickNoise(1).at(2) && !(TickNoise(1).at(2) == TickNoise(2).at(1)));
+static_assert(TickNoise(1).from(5).at(2) == TickNoise(1).at(7) && !(TickNoise(1).at(2) == TickNoise(2).at(1)));
 
 TEST_CASE("the noise of ticks is uniform, and ticks, axes and seeds are independent") {
   constexpr int n = 40000;

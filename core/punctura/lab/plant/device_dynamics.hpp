@@ -19,6 +19,8 @@ struct BasicDeviceDynamics {
   /// The force that the motors give for a commanded force, N.
   Vector3<Scalar> saturate(const Vector3<Scalar>& force) const noexcept {
     using namespace lane;
+    // Nearly all forces are so far below that rounding cannot matter: they need neither root nor division.
+    if (all(force.squaredNorm() < Lane<Scalar>(0.999) * max_force * max_force)) return force;
     const Scalar norm = force.norm();
     return select(norm > max_force, Vector3<Scalar>(force * (max_force / norm)), force);
   }

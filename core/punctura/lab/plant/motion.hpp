@@ -38,6 +38,7 @@ struct MinimumJerk {
     const Scalar path = u * u * u * (10 + u * (-15 + 6 * u));
     const Scalar rate = 30 * u * u * (1 - u) * (1 - u) / duration;
     const Vector way = to - from;
+    if (!any(arrived)) return {from + path * way, rate * way};
     return {select(arrived, to, Vector(from + path * way)), select(arrived, Vector(), Vector(rate * way))};
   }
 };
@@ -71,6 +72,11 @@ class StrokesMotion {
     while (next_ > 0 && time < segments_[next_ - 1].begin) --next_;
     while (next_ < segments_.size() && time >= segments_[next_].begin) ++next_;
     return next_ == 0 ? home_ : segments_[next_ - 1];
+  }
+
+  /// When the movement after the last one of segment() begins, s.
+  double next_begin() const noexcept {
+    return next_ < segments_.size() ? segments_[next_].begin : std::numeric_limits<double>::infinity();
   }
 
   static void archive(auto& self, auto& state) { state.index(self.next_, self.segments_.size() + 1); }

@@ -8,9 +8,11 @@
 
 namespace punctura {
 
+inline constexpr std::uint64_t split_mix_step = 0x9e3779b97f4a7c15;
+
 /// Number `count` of SplitMix64 (Steele et al. 2014), from 1: it mixes the bits of a counter.
 constexpr std::uint64_t split_mix(std::uint64_t key, std::uint64_t count) noexcept {
-  std::uint64_t z = key + count * 0x9e3779b97f4a7c15;
+  std::uint64_t z = key + count * split_mix_step;
   z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
   z = (z ^ z >> 27) * 0x94d049bb133111eb;
   return z ^ z >> 31;
@@ -20,6 +22,13 @@ constexpr std::uint64_t split_mix(std::uint64_t key, std::uint64_t count) noexce
 class TickNoise {
  public:
   constexpr TickNoise(std::uint64_t seed = 0) noexcept : key_(split_mix(seed, 1)) {}
+
+  /// The noise whose number 0 is this number of these.
+  constexpr TickNoise from(std::uint64_t number) const noexcept {
+    TickNoise later = *this;
+    later.key_ += number * split_mix_step;
+    return later;
+  }
 
   /// Three independent numbers, uniform between -0.5 and 0.5, with 21 bits. The same number gives the same ones.
   constexpr Vector3d at(std::uint64_t number) const noexcept {

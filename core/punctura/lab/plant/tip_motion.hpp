@@ -27,10 +27,14 @@ struct BasicTipMotion {
     using namespace lane;
     const Vector pull = force + r.stiffness * (wanted - x), relative = v - toward;
     const Vector free_v = toward + r.kept * relative + r.velocity * pull;
-    const Vector free_x = x + r.time * toward + r.travel * relative + r.way * pull;
     const Vector both = v + free_v;  // along the mean velocity, also with friction
     const Scalar size = both.norm(), lost = r.velocity * r.friction;
     const auto moves = size > lost, rests = v.squaredNorm() == 0;
+    if (all(rests && !moves)) {
+      v = {};
+      return;
+    }
+    const Vector free_x = x + r.time * toward + r.travel * relative + r.way * pull;
     const Vector drag = select(moves, Scalar(r.friction / size), Scalar(0)) * both;
     const Vector end_v = free_v - r.velocity * drag;
     const auto stops = !rests && lost > 0 && !(moves && v.dot(end_v) > 0);
