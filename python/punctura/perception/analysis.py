@@ -21,11 +21,13 @@ VAGUE = 0.75  # of the range of the levels: an interval of the threshold that sa
 OPEN = 0.15  # of the largest density: that much at the end of the prior, and the answers set no bound there
 QUARTER = float(ndtri(0.75))
 LEAST_CELL = 5  # answers for a rate of d'
+RATE = 0.3  # a rate of k in n is (k + RATE)/(n + 2 RATE): then d' has the least bias (docs/decisions/perception.md)
 _POINTS = 200  # of each rate, for the interval of d'
 
 
 class Estimate(NamedTuple):
-    """A number and the ends of its 95 % interval. If the answers set no bound, an end is infinite, the number NaN."""
+    """A number and the ends of its 95 % interval. If the answers set no bound, an end is infinite. The number may be
+    NaN then."""
 
     value: float
     low: float
@@ -268,17 +270,20 @@ def _detection(protocol: Protocol, found: Answers) -> list[Detection]:
         if min(map(len, cells)) < LEAST_CELL:
             continue
         one, other = (_z(float(cell.sum()), len(cell)) for cell in cells)
+        first, second = (float(ndtri((cell.sum() + RATE) / (len(cell) + 2 * RATE))) for cell in cells)
         never, always = ([bool(cell.mean() == end) for cell in cells] for end in (0, 1))
-        dprime = _spread((one[:, None] + other) / (1 if yes_no else np.sqrt(2)), any(never), any(always))
-        criterion = _spread((other - one[:, None]) / 2, always[0] or never[1], never[0] or always[1])
+        per = 1 if yes_no else np.sqrt(2)
+        dprime = _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always))
+        criterion = _spread(
+            (second - first) / 2, (other - one[:, None]) / 2, always[0] or never[1], never[0] or always[1]
+        )
         list_of.append(Detection(float(level), int(here.sum()), dprime, criterion))
     return list_of
 
 
-def _spread(values: Array, no_low: bool, no_high: bool) -> Estimate:
-    """Of equally probable values. A rate of 0 or 1 sets no bound on one side."""
+def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimate:
+    """values: equally probable ones. A rate of 0 or 1 sets no bound on one side."""
     low, high = (float(end) for end in np.quantile(values, SHARES))
-    value = np.nan if no_low or no_high else float(values.mean())
     return Estimate(value, -np.inf if no_low else low, np.inf if no_high else high)
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 MOST_PANELS = 12
 INTERVALS = (
     f"Intervals are {LEVEL:.0%} intervals if the shape of the function is right; of simulated observers, for whom it "
-    "never quite is, 90 % to 99 % held the known number, in one case 81 % (docs/decisions/perception.md)."
+    "never quite is, 91 % to 99 % held the known number (docs/decisions/perception.md)."
 )
 WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)
 
@@ -79,9 +79,10 @@ def words(one: Estimate | None) -> str:
     if one is None or not np.isfinite([one.low, one.high]).any():
         return "-"
     value, low, high = (f"{round(end, 12) + 0:.3g}" for end in one)
-    if not np.isfinite(one.high):
-        return f"at least {low}"
-    return f"{value} ({low} to {high})" if np.isfinite(one.low) else f"at most {high}"
+    if np.isfinite([one.low, one.high]).all():
+        return f"{value} ({low} to {high})"
+    bound = f"at least {low}" if np.isfinite(one.low) else f"at most {high}"
+    return f"{value} ({bound})" if np.isfinite(one.value) else bound
 
 
 def json_of(found: Analysis) -> str:
