@@ -124,12 +124,13 @@ OPEN = "def open(rate, device): raise OSError\n"
         ("a = {}; a['devices'] = [a]; a['state'] = 'no'; return a", "it is {'state': 'no', ...}"),
     ],
 )
-def test_a_wrong_answer_of_status_is_told(tmp_path, body, words):
+def test_a_wrong_answer_of_status_is_told(tmp_path, monkeypatch, capfd, body, words):
     package(tmp_path, "mine", f"{OPEN}def status():\n    {body}\n")
-    done = punctura(tmp_path, "devices", "--json")
-    listed = json.loads(done.stdout)
+    monkeypatch.syspath_prepend(tmp_path)
+    listed = enumerate_devices()
     assert listed[0]["state"] == "fault" and words in listed[0]["detail"], listed[0]
-    assert listed[-1]["backend"] == "simulated" and ("loud" in done.stderr) == ("loud" in body)
+    printed, errors = capfd.readouterr()
+    assert listed[-1]["backend"] == "simulated" and not printed and ("loud" in errors) == ("loud" in body)
 
 
 def test_a_status_that_hangs_is_told(tmp_path, monkeypatch):
