@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import codecs
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +20,7 @@ from punctura.trace.trace import TraceError
 LOOKED_AT = 200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
 MOST_BYTES = 500_000_000  # the cells of a table take a few times as much memory
 _LONGEST_LINE = LONGEST_NAME * MOST_COLUMNS  # characters
+_MOST_JOINED = 20  # lines of a row
 _PIECE = 1 << 20  # bytes
 _BEGINNING, _END = "LabVIEW Measurement", "***End_of_Header***"  # of an LVM file
 
@@ -64,6 +65,18 @@ def read_lines(path: Path, encoding: str) -> Iterator[list[str]]:
             if max(map(len, [*lines, begun])) > _LONGEST_LINE:
                 raise TraceError(f"{path}: a line has more than {_LONGEST_LINE:,} characters; export it again")
             yield lines
+
+
+def joined(lines: Sequence[str]) -> list[tuple[str, int]]:
+    """The lines, and of how many each is made: a cell in quotes may go over several lines, as the name of a column."""
+    found: list[tuple[str, int]] = []
+    at = 0
+    while at < len(lines):
+        ends = (n for n in range(1, _MOST_JOINED + 1) if sum(line.count('"') for line in lines[at : at + n]) % 2 == 0)
+        count = next(ends, 1)
+        found.append((" ".join(lines[at : at + count]), count))
+        at += count
+    return found
 
 
 def is_comment(line: str) -> bool:

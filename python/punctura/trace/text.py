@@ -22,7 +22,17 @@ from punctura.trace.cells import are_plain, column, unit_beside
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import column_names, first_row, with_unit
-from punctura.trace.lines import LOOKED_AT, MOST_BYTES, Pieces, is_comment, is_lvm, lvm_lines, read_lines, survey
+from punctura.trace.lines import (
+    LOOKED_AT,
+    MOST_BYTES,
+    Pieces,
+    is_comment,
+    is_lvm,
+    joined,
+    lvm_lines,
+    read_lines,
+    survey,
+)
 from punctura.trace.table import Table, check_bytes, check_size
 from punctura.trace.trace import Finding, TraceError, Unstated
 from punctura.trace.units import role_of
@@ -55,7 +65,8 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
     if not found.rows:
         raise TraceError(f"{path}: is empty")
     delimiter = _delimiter(found.last)
-    head, tail = ([_spaced(line, delimiter) for line in lines] for lines in (found.first, found.last))
+    above_all = joined(found.first)
+    head, tail = ([_spaced(line, delimiter) for line in lines] for lines in ([row for row, _ in above_all], found.last))
     check_size(path, 0, max(1 + line.count(delimiter) for line in head + tail if not is_comment(line)))
     last = [_cells(line, delimiter) for line in tail]
     width = Counter(len(row) for row in last).most_common(1)[0][0]
@@ -67,10 +78,10 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
     empty = min(next((i for i, cell in enumerate(row[::-1]) if cell), width) for row in last)  # columns at the end
-    told = [(line, _words(line.lstrip("#% "), delimiter, width)) for line in found.first[:first]]
+    told = [(line, _words(line.lstrip("#% "), delimiter, width)) for line, _ in above_all[:first]]
     told = [(line, words) for line, words in told if not (is_comment(line) and len(words) < width)]  # without remarks
     names = column_names([words for _, words in told], width, width - empty)
-    rows = _Rows(pieces, delimiter, skip=sum(not is_comment(line) for line in head[:first]))
+    rows = _Rows(pieces, delimiter, skip=sum(count for line, count in above_all[:first] if not is_comment(line)))
     cells, left_out = _parsed(path, rows, names, delimiter)
     table = Table()
     beside_all = {name: _unit_beside(name, cells[name]) for name in names}

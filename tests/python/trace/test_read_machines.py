@@ -41,6 +41,7 @@ FILES = {
         ["Name,Time,Depth,Force", "Unit,s,mm,N", "Channel,0,1,2"], "7,{},{},{}"
     ).encode(),
     "a line below the units": text_of(["Zeit;Weg;Kraft", "s;mm;N", "-;-;-"], "{};{};{}").encode(),
+    "names over two lines": text_of(['"Time\n(s)","Depth\n(mm)","Force\n(N)"'], "{},{},{}").encode(),
     "units above the names": text_of(["[s],[mm],[N]", "Time,Depth,Force"], "{},{},{}").encode(),
     "units in brackets between spaces": text_of(["Time (s) Depth (mm)  Force (N)"], "{} {} {}").encode(),
     "a remark below the first row": text_of(["t_s,depth_mm,force_N"], "{},{},{}").replace("\n", "\n# x\n", 2).encode(),

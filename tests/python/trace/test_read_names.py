@@ -132,7 +132,7 @@ ENCODINGS = {
     "big5": "時間(s),位移(mm),荷重(N)",
     "shift_jis": "時間(s),変位(mm),荷重(N)",
     "euc_jp": "時間(s),ストローク(mm),試験力(N)",
-    "cp949": "시간(s),변위(mm),하중(N)",
+    "cp949": "시간(초),변위(mm),하중(N)",
     "cp1252": "Temps (s),Déplacement (mm),Force (N)",
     "mac_roman": "Temps (s),Déplacement (mm),Force (N)",
     "cp1251": "Время (с),Перемещение (мм),Сила (Н)",
