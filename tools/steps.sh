@@ -27,8 +27,8 @@ choose_steps() {
 
 # Steps that run side by side: each string is a row of steps, one after another. What compiles and computes goes beside
 # what waits for clocks, pages and processes. A row has its steps in the order of all_steps. Those that build/dev is for
-# are in one row, because two builds of one folder disturb each other.
-rows=(tree format types web "cpp asan tsan consumer examples instructions docs" "page python" "$named_steps")
+# are in one row, because two builds of one folder disturb each other; web brings the modules that page needs.
+rows=(tree format types "cpp asan tsan consumer examples instructions docs" "web page python" "$named_steps")
 
 # Groups of processes that run in the background; they end with this program, however it ends.
 groups=""
