@@ -2,7 +2,7 @@
 #include "operations.hpp"
 
 #include "punctura_runtime/batch/line_kernel.hpp"
-#include "punctura_runtime/batch/twice.hpp"
+#include "twice.hpp"
 
 namespace punctura::bench_batch {
 
@@ -10,7 +10,7 @@ namespace {
 
 Operations counted;
 
-using Four = batch::Twice<batch::Twice<batch::Portable>>;
+using Four = Twice<Twice<batch::Portable>>;
 
 /// Four lanes. Each operation counts once for the whole vector.
 struct Counting : Four {
