@@ -29,9 +29,9 @@ _LOGARITHMIC = {
     "relaxation_2_time",
 }  # fmt: skip
 _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
-    "stiffness": (1e-3, 1e7), "precompression": (0.0, 1e4), "friction": (1e-4, 1e2), "thickness": (1e-6, 0.3),
+    "stiffness": (1e-1, 1e7), "precompression": (0.0, 1e4), "friction": (1e-4, 1e2), "thickness": (1e-6, 0.3),
     "tip_length": (1e-5, 0.1), "growth": (-5e4, 5e4), "tail_length": (1e-5, 0.1), "tail_floor": (0.0, 1.0),
-    "cutting": (0.0, 1e4), "set": (0.0, 0.98), "coupling_stiffness": (1e-1, 1e7), "coupling_damping": (0.0, 1e3),
+    "cutting": (0.0, 1e4), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e7), "coupling_damping": (0.0, 1e3),
     "relaxation_1_stiffness": (0.0, 1e7), "relaxation_1_time": (1e-3, 1e3),
     "relaxation_2_stiffness": (0.0, 1e7), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
     "lag": (0.0, LATEST), "delay": (-LATEST, LATEST),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
-from punctura.trace.samples import cut_off, gaps, nothing_seen, without_spikes
+from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, without_spikes
 from punctura.trace.segment import Segments, segment
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -53,7 +53,13 @@ def examine(trace: Trace) -> Trace:
             trace = replace(trace, force=trace.force - zero)
             segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N {where}; this is subtracted", True))
-    found += [*_units(trace), *gaps(trace), *cut_off(trace), *_drift(trace, segments)]
+    found += [
+        *_units(trace),
+        *gaps(trace),
+        *smoothed(trace.force[: (segments.contact or 0) + 1]),
+        *cut_off(trace),
+        *_drift(trace, segments),
+    ]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
     return replace(trace, findings=(*trace.findings, *found))
 

@@ -20,6 +20,7 @@ Array = NDArray[Any]
 DIGITS = 1e-9  # of the range of the values: differences as small are of the computer
 OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
 FEW = 0.05  # of the samples: so many spikes may be left out
+AIR, ALIKE = 40, 0.7  # samples; correlation of neighbouring samples
 FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
 
 
@@ -100,6 +101,21 @@ def gaps(trace: Trace) -> Iterator[Finding]:
         if steps.max() > max(20 * float(np.median(steps)), 5e-3 * float(np.ptp(trace.time))):
             text = f"no samples for {steps.max():.3g} s behind sample {int(np.argmax(steps)) + 1}"
             yield Finding("gap", f"{text}; what the needle did there is not known, so the fit can be wrong")
+
+
+def smoothed(air: Array) -> Iterator[Finding]:
+    """Noise of the force in air (n,), N, that is alike in a few neighbouring samples: a filter smears pops as well."""
+    where = np.linspace(-1, 1, len(air))
+    noise = air - np.mean(air) - where * float(where @ air) / max(float(where @ where), 1e-300)  # without a drift
+    if len(air) < AIR or not np.ptp(air) > 0:
+        return
+    alike = np.correlate(noise, noise, "full")[len(noise) - 1 :] / float(noise @ noise)
+    apart = int(np.argmax(alike <= 0))
+    hum = float(alike[apart : len(alike) // 2].max(initial=0.0)) > 0.5
+    if alike[1] > ALIKE and 0 < apart <= len(air) // 6 and not hum:
+        text = f"the noise in air is alike in some {apart} neighbouring samples, as if the force was smoothed or filled"
+        advice = "pops are then smeared as well, and look like other walls. Export it as it is measured"
+        yield Finding("smoothed", f"{text} in: {advice}")
 
 
 def cut_off(trace: Trace) -> Iterator[Finding]:

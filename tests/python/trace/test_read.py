@@ -127,6 +127,7 @@ CHANGES = {
     "gap": lambda made: {"time_s": made.time + (np.arange(len(made)) > 150)},
     "time_doubtful": lambda made: {"time_s": made.time * 1e3},
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
+    "smoothed": lambda made: {"force_N": np.convolve(np.pad(made.force, 7, "edge"), np.ones(15) / 15, "valid")},
     "cut_off": lambda made: {"force_N": np.minimum(made.force, 0.7 * made.force.max())},
     "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
