@@ -19,6 +19,7 @@ from person import opened
 from playwright.sync_api import Page, sync_playwright
 from sitting import answered, on_disk, sitting, stroke
 
+TRIALS = 60
 LONGEST_S = 10.0  # from the start of a studio to its kill
 
 
@@ -26,7 +27,7 @@ def act(page: Page) -> int:
     """What a person does now. Returns how many answers the page said to be on the disk."""
     words = page.locator(".stage-sentence").inner_text()
     if "push the needle" in words:
-        stroke(page)
+        stroke(page, 1)
     page.keyboard.press("y" if "Did it pop?" in words or "Do you agree?" in words else "Enter")
     page.wait_for_timeout(50)
     found = re.match(r"Trial (\d+) of|(\d+) of", words)
@@ -35,7 +36,7 @@ def act(page: Page) -> int:
 
 def main(kills: int = 50, seed: int = 1) -> None:
     draw, folder = random.Random(seed), Path(tempfile.mkdtemp())
-    answered(folder, 0)
+    answered(folder, 0, TRIALS)
     with sync_playwright() as playwright:
         browser = launch(playwright)
         studio = sitting(folder)
@@ -48,12 +49,13 @@ def main(kills: int = 50, seed: int = 1) -> None:
                     told.append(act(page))
                 assert len(on_disk(folder)) >= max(told)
                 studio = sitting(folder, studio.port)
+                page.goto(studio.url)  # the page finds it by itself, too, but later
             while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
                 act(page)
         studio.end()
         browser.close()
-    assert len(on_disk(folder)) == 20
-    print(f"{kills} kills, 20 answered trials, none lost, order as planned")
+    assert len(on_disk(folder)) == TRIALS
+    print(f"{kills} kills, {TRIALS} answered trials, none lost, order as planned")
 
 
 if __name__ == "__main__":

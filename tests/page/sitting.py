@@ -37,9 +37,9 @@ def sitting(folder: Path, port: int = 0) -> StudioProcess:
     )
 
 
-def answered(folder: Path, count: int) -> None:
+def answered(folder: Path, count: int, total: int = 20) -> None:
     """The protocol, and the first answers of P01."""
-    (folder / "mine.toml").write_text(PROTOCOL)
+    (folder / "mine.toml").write_text(PROTOCOL.replace("total = 20", f"total = {total}"))
     protocol = load_protocol(folder / "mine.toml")
     with Session(protocol, folder / "people", "P01", consent=True) as session:
         for _ in range(count):
@@ -51,11 +51,11 @@ def sentence(page: Page, words: str) -> None:
     expect(page.locator(".stage-sentence")).to_contain_text(words)
 
 
-def stroke(page: Page) -> None:
-    """Through the membrane and out again, by keys; again if a slow computer was not through."""
+def stroke(page: Page, most: int = 20) -> None:
+    """Through the membrane and out again, by keys; again, at most so often, if a slow computer was not through."""
     words = page.locator(".stage-sentence")
     before = words.inner_text()
-    for _ in range(20):
+    for _ in range(most):
         for key in ("Shift+ArrowDown", "Shift+ArrowUp"):
             for _ in range(20):
                 page.keyboard.press(key)
