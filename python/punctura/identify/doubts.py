@@ -63,7 +63,20 @@ def doubts(
         found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
     if not any(one.kind in UNEQUAL for one in found):
         found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
-    return Doubts(assessment, (*_wall_in_air(segments, fit, assessment), *found))
+    return Doubts(assessment, (*_wall_in_air(segments, fit, assessment), *_walls_beyond(trace, fit), *found))
+
+
+def _walls_beyond(trace: Trace, fit: Fit) -> tuple[Cause, ...]:
+    """Walls that a search has left where the needle never was."""
+    surfaces, deepest = fit.parameters.membranes[:, 0], float(trace.depth.max())
+    beyond = [f"membrane[{i}]" for i in np.flatnonzero(surfaces > deepest)]
+    if not beyond:
+        return ()
+    text = (
+        f"The needle never came to {', '.join(beyond)}, and went down to {deepest * 1e3:.4g} mm: the trace shows "
+        f"nothing there. State a number of walls (--membranes {len(surfaces) - len(beyond)})"
+    )
+    return (Cause("wall_beyond", 0.0, text),)
 
 
 def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:
