@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
 from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, without_spikes
-from punctura.trace.segment import Segments, segment
+from punctura.trace.segment import Segments, segment, way_to_tissue
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -36,7 +36,8 @@ def examine(trace: Trace) -> Trace:
         found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
     segments = segment(trace)
     going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
-    if going_in is not None and _pushed(trace.force[going_in.start : going_in.end]):
+    touching = way_to_tissue(trace, segments.strokes)
+    if going_in is not None and touching is not None and _pushed(trace.force[going_in.start : touching.end]):
         trace = replace(trace, force=-trace.force)
         segments = segment(trace)
         found.append(

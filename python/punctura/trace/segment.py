@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
@@ -67,16 +68,20 @@ class Segments:
 def segment(trace: Trace) -> Segments:
     """Finds contact, pops, holds, reversals and insertions of a trace."""
     strokes = _strokes(trace)
-    inward = [stroke for stroke in strokes if stroke.kind == "in"]
-    height = float(np.max(np.abs(trace.force - np.median(trace.force))))
-    touching = (stroke for stroke in inward if leaves_air(trace.force[: stroke.end], height))  # a hand turns in air
-    first = next(touching, inward[0] if inward else None)
+    first = way_to_tissue(trace, strokes)
     moving = [stroke for stroke in strokes if stroke.kind != "hold"]
     out = exit_sample(trace.depth, trace.force) if first and moving[-1].kind == "out" else None
     after = None if out is None else trace.force[out:]
     contact = contact_sample(trace.depth[: first.end], trace.force[: first.end], after) if first else None
     pops = [pop for pop in _pops(trace, strokes) if contact is None or pop.start > contact]
     return Segments(contact, tuple(pops), tuple(strokes), out)
+
+
+def way_to_tissue(trace: Trace, strokes: Sequence[Stroke]) -> Stroke | None:
+    """The first way in on which the force leaves the air: a needle may rest or turn before. None without a way in."""
+    inward = [stroke for stroke in strokes if stroke.kind == "in"]
+    height = float(np.max(np.abs(trace.force - np.median(trace.force))))
+    return next((way for way in inward if leaves_air(trace.force[: way.end], height)), inward[0] if inward else None)
 
 
 def _pops(trace: Trace, strokes: list[Stroke]) -> list[Pop]:

@@ -14,7 +14,7 @@ from punctura.record.save_as import export_pieces
 from punctura.simulation import Strokes
 from punctura.trace import TraceError, read_trace
 from recorded import recorded
-from traces import trace
+from traces import force_of, trace
 
 
 def columns_of(measured, **changes):
@@ -263,6 +263,14 @@ def test_spikes_are_left_out_and_hide_no_pop(tmp_path):
     [finding] = read.findings
     assert finding.kind == "spikes" and finding.repaired and "2, by up to" in finding.text
     assert read.force == pytest.approx(np.delete(made.force, [300, 700]))
+
+
+def test_a_needle_that_rests_in_air_has_no_reversed_sign(tmp_path):
+    steps = np.concatenate([np.r_[np.arange(k, k + 1, 0.04), np.full(50, k + 1.0)] for k in range(12)]) * 1e-3
+    for seed in range(8):
+        force = force_of(steps) + 8e-3 * np.random.default_rng(seed).normal(size=len(steps))
+        columns = {"time_s": np.arange(len(steps)) / 50, "depth_mm": steps * 1e3, "force_N": force}
+        assert kinds(read_trace(write_csv(tmp_path / "a.csv", columns))) <= {"no_withdrawal"}
 
 
 def test_a_digitised_curve_is_sorted_on_request(tmp_path):
