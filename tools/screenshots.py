@@ -24,6 +24,7 @@ from studio_process import StudioProcess
 ROOT = Path(__file__).resolve().parent.parent
 LAPTOP, TABLET, PHONE = (1440, 900), (900, 1200), (390, 844)
 SIZES = (1920, 1080), LAPTOP, (1024, 768), PHONE
+ZOOMED = (720, 450)  # a laptop at a zoom of 200 %
 SCROLLS = 1080  # px: below this width the page scrolls
 TOUCHED = 1024  # px: up to this width, fingers are the usual pointer
 STILL_MS = 1500  # until plots and view are drawn
@@ -59,7 +60,9 @@ AFTER = {"trace-phone": do.to_parameters, "trace-phone-dark": do.to_parameters}
 
 
 @contextmanager
-def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str, touched: bool = False) -> Iterator[Page]:
+def opened(
+    browser: Browser, scene: str, size: tuple[int, int], colours: str, touched: bool = False, bench: bool = True
+) -> Iterator[Page]:
     """The page of a new studio."""
     with tempfile.TemporaryDirectory() as folder, StudioProcess(Path(folder), scene) as studio:
         viewport = {"width": size[0], "height": size[1]}
@@ -67,7 +70,8 @@ def opened(browser: Browser, scene: str, size: tuple[int, int], colours: str, to
             viewport=viewport, color_scheme=colours, reduced_motion="reduce", has_touch=touched
         )
         context.set_default_timeout(do.PATIENCE)
-        on_the_bench(context)
+        if bench:
+            on_the_bench(context)
         context.add_cookies([{"name": "punctura_sound", "value": "off", "url": studio.url}])
         page = context.new_page()
         page.goto(studio.url)
@@ -123,10 +127,11 @@ def take_all(browser: Browser, out: Path, wanted: list[str]) -> None:
     for name, scene, act in do.EVERY:
         if wanted and name not in wanted:
             continue
-        with opened(browser, scene, LAPTOP, "light") as page:
+        stage = name.startswith("stage")
+        with opened(browser, scene, LAPTOP, "light", bench=not stage) as page:
             act(page)
             tools = page.context.new_cdp_session(page)
-            for width, height in SIZES:
+            for width, height in (*SIZES, ZOOMED) if stage else SIZES:
                 page.set_viewport_size({"width": width, "height": height})
                 tools.send("Emulation.setTouchEmulationEnabled", {"enabled": width <= TOUCHED})
                 touched = page.evaluate("matchMedia('(pointer: coarse)').matches")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 from playwright.sync_api import Page, expect
@@ -11,9 +10,8 @@ from playwright.sync_api import Page, expect
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "page"))
 
 from person import PATIENCE, drag_in, push, ready, tab
+from stage_states import STAGE, Act, exercise_begun
 from traced import answer, dropped
-
-Act = Callable[[Page], None]
 
 
 def tour(page: Page) -> None:
@@ -73,10 +71,7 @@ def replay(page: Page) -> None:
 
 
 def exercise(page: Page) -> None:
-    ready(page)
-    tab(page, "Exercises")
-    page.locator("article.exercise", has_text="Venipuncture").get_by_role("button", name="Start").click()
-    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    exercise_begun(page)
     expect(page.locator(".header")).to_contain_text("Force on", timeout=PATIENCE)
     for _ in range(200):
         push(page, "ArrowDown", 2)
@@ -161,18 +156,12 @@ def opened_tab(name: str) -> Act:
 
 def running(page: Page) -> None:
     """The exercise with the longest time, so that it is running until all its pictures are taken."""
-    ready(page)
-    tab(page, "Exercises")
-    page.locator("article.exercise", has_text="Epidural").get_by_role("button", name="Start").click()
-    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    exercise_begun(page, "epidural")
     push(page, "Shift+ArrowDown", 12)
 
 
 def blind(page: Page) -> None:
-    ready(page)
-    tab(page, "Exercises")
-    page.locator("article.exercise", has_text="Blind").get_by_role("button", name="Start").click()
-    expect(page.locator(".running")).to_be_visible(timeout=PATIENCE)
+    exercise_begun(page, "blind")
 
 
 def maker(page: Page) -> None:
@@ -191,8 +180,8 @@ def alone(page: Page) -> None:
     page.get_by_role("button", name="Maximise Force against depth").click()
 
 
-# Every state that has a picture of its own at each size: its name, its scene, and what a person does.
-EVERY: tuple[tuple[str, str, Act], ...] = (
+# Every state of the bench that has a picture of its own at each size: its name, its scene, and what a person does.
+BENCH: tuple[tuple[str, str, Act], ...] = (
     ("tour", "venipuncture", tour),
     ("hand", "epidural", opened_tab("Hand")),
     ("help", "venipuncture", help_open),
@@ -221,3 +210,5 @@ EVERY: tuple[tuple[str, str, Act], ...] = (
     ("alone", "k06-fig10", alone),
     ("projector", "epidural", projector),
 )
+
+EVERY = STAGE + BENCH
