@@ -31,10 +31,8 @@ compilers() {
     chmod +x "$work/$name"
   done
   export CC=$work/cc CXX=$work/c++
-  # Named to CMake, because the build back-end tries CXX with -fsyntax-only, at which Zig fails. Zig's linker has no
-  # --dependency-file, which CMake would take from the linker of this machine.
-  CMAKE_ARGS="-DCMAKE_CXX_COMPILER=$CXX -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"
-  export CMAKE_ARGS="$CMAKE_ARGS -DCMAKE_LINK_DEPENDS_USE_LINKER=OFF"
+  # Named to CMake, because the build back-end tries CXX with -fsyntax-only, at which Zig fails.
+  export CMAKE_ARGS="-DCMAKE_CXX_COMPILER=$CXX -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"
 }
 
 # needs_glibc FILE...: fails if a file needs a newer glibc.
