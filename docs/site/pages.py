@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import re
 from collections.abc import Iterator
 from typing import Any
 
-from text import heading
+from text import escape_rst, heading
 
 # In the order in which a reader comes to need them.
 PACKAGES = [
@@ -22,8 +23,9 @@ NAMES = {"punctura.poses": ["PosedNeedle", "PoseWarning"], "punctura.studio.clie
 
 def python_pages() -> Iterator[tuple[str, str]]:
     """(name, text): an index, and for each public package one page with its names."""
-    index = [*heading("Python reference"), ".. toctree::", "", *(f"   {name}" for name in PACKAGES), ""]
-    yield "index.rst", "\n".join(index)
+    index = [*heading("Python reference"), ".. toctree::", "   :hidden:", "", *(f"   {name}" for name in PACKAGES), ""]
+    index += [f"- :doc:`{name}`: {first_words(name)}" for name in PACKAGES]
+    yield "index.rst", "\n".join([*index, ""])
     shown: set[int] = set()
     for name in PACKAGES:
         package = importlib.import_module(name)
@@ -35,6 +37,12 @@ def python_pages() -> Iterator[tuple[str, str]]:
         if name in NAMES:
             directive += ["   :no-members:", "", *(f".. autoclass:: {name}.{member}" for member in names)]
         yield f"{name}.rst", "\n".join([*heading(name), *directive, ""])
+
+
+def first_words(name: str) -> str:
+    """The first paragraph of a package, without the place of its page in the tree."""
+    words = (importlib.import_module(name).__doc__ or "").partition("\n\n")[0]
+    return escape_rst(re.sub(r" \(docs/[\w-]+\.md\)", "", " ".join(words.split())))
 
 
 def command_line_page() -> str:

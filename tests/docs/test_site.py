@@ -7,6 +7,7 @@ import check
 import cpp_reference
 import field_words
 import gallery
+import pages
 import pytest
 import studio_style
 import text
@@ -28,6 +29,12 @@ def test_the_page_of_the_studios_style_shows_every_name_of_the_style_sheet_once(
     for colour in re.findall(r"#[0-9a-f]{6}", TOKENS):
         assert f"background:{colour}" in page
     assert "font-size:clamp(40px, 11vmin, 132px)" in page
+
+
+def test_the_index_of_the_python_reference_has_the_first_words_of_each_package():
+    index = dict(pages.python_pages())["index.rst"]
+    assert "- :doc:`punctura.events`: Events at the membranes: touch, pop and exit of the tip.\n" in index
+    assert all(re.search(rf"^- :doc:`{name}`: \w", index, re.M) for name in pages.PACKAGES)
 
 
 def site(folder: Path, **pages: str) -> list[str]:

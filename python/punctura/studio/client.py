@@ -27,9 +27,11 @@ PATIENCE_S = 120.0
 class StudioClient:
     """Connects to the address that `punctura run` prints. Keeps all messages, the last frame, and the counts of frames.
 
-    with StudioClient(url) as page:
-        page.ask(do="strokes", period=2.0)
-        page.wait(lambda: page.of("event"))
+        with StudioClient(url) as page:
+            page.ask(do="strokes", period=2.0)
+            page.wait(lambda: page.of("event"))
+
+    The end of the block closes the connection.
     """
 
     def __init__(self, url: str, keep_frames: bool = False, patience: float = PATIENCE_S) -> None:
