@@ -47,4 +47,6 @@ class Whitening:
     def _solved(self, columns: Array, trans: str) -> Array:
         from scipy.linalg.lapack import dtbtrs
 
+        if not columns.size:  # dtbtrs writes beyond its memory
+            return columns
         return np.asarray(dtbtrs(self._factor, columns, uplo="L", trans=trans)[0])

@@ -27,6 +27,16 @@ def holds(found, name, value):
     return of(found, name).low <= value <= of(found, name).high
 
 
+def test_a_late_model_whose_walls_the_needle_does_not_reach_has_no_derivatives_and_no_crash():
+    trace, needle, _ = random_trace(4, Conditions(machine=True, lag=LATE))
+    row = default_membrane()
+    row[:5] = 1.0, 300.0, 0.1, 0.1, 1e-3
+    far = Parameters(needle, np.array([row]), default_coupling(1000.0)).with_values({"lag": LATE})
+    misfit = Misfit(trace, far)
+    jacobian = misfit.jacobian(free := misfit.free(["membrane[0].stiffness", "lag"], far), free.coordinates(far))
+    assert jacobian.shape == (len(trace), 2) and not jacobian.any()
+
+
 @pytest.mark.parametrize("kind", ["lag", "delay"])
 @pytest.mark.parametrize("machine", [True, False])
 def test_a_late_force_is_found_and_the_spring_is_held(kind, machine):
