@@ -17,13 +17,13 @@ author = "the Punctura contributors"
 version = release = punctura.__version__
 html_title = f"Punctura {release}"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "search_texts"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_copybutton", "sphinx_design", "search_texts"]
 root_doc = "index"
 include_patterns = [*PAGES, "reference/**", "gallery/*"]
 exclude_patterns = ["capi/**", "core/**", "runtime/**", "python/**"]
 source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
 
-myst_enable_extensions = ["attrs_inline"]
+myst_enable_extensions = ["attrs_inline", "colon_fence"]
 myst_heading_anchors = 4  # so that page.md#a-heading works as it does on a code host
 suppress_warnings = ["misc.highlighting_failure"]  # an output or a shortened listing need not be valid code
 highlight_language = "text"
@@ -38,6 +38,8 @@ autodoc_default_options = {"members": True, "imported-members": True, "undoc-mem
 nb_execution_mode = "force"
 nb_execution_show_tb = True
 nb_execution_timeout = 120
+
+copybutton_selector = "div:not(.highlight-text, .output) > div.highlight > pre"  # what a program prints is not copied
 
 html_theme = "furo"
 html_show_sphinx = html_show_copyright = False
