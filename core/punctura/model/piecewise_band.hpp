@@ -1,10 +1,8 @@
 // A friction band whose edges are quadratic in depth between breaks. Both solvers compute with it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 
 #include "punctura/model/band.hpp"
 
@@ -103,20 +101,6 @@ struct PiecewiseBand {
   constexpr const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
   constexpr const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
   static constexpr std::size_t last() noexcept { return N - 1; }                   ///< index of the last piece
-
-  /// The same band as a PiecewiseBand of M >= N pieces. Laws with different numbers of pieces then have one type.
-  ///
-  /// The added breaks are at infinity, and the added pieces are copies of the last piece.
-  template <std::size_t M>
-  constexpr PiecewiseBand<Scalar, M> with_room() const noexcept {
-    static_assert(M >= N);
-    PiecewiseBand<Scalar, M> more;
-    more.breaks.fill(std::numeric_limits<Scalar>::infinity());
-    more.pieces.fill(pieces[N - 1]);
-    std::copy(breaks.begin(), breaks.end(), more.breaks.begin());
-    std::copy(pieces.begin(), pieces.end(), more.pieces.begin());
-    return more;
-  }
 };
 
 }  // namespace punctura

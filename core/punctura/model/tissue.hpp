@@ -34,27 +34,14 @@ struct BasicGripPoint {
 };
 using GripPoint = BasicGripPoint<double>;
 
+// clang-format off
 inline constexpr FieldOf<GripPoint> grip_point_fields[] = {
-    {{"opening",
-      "y",
-      "m",
-      {0, 1, false, false, "must be from 0 to 1 m"},
-      "Openings of the hole, ascending.",
-      in_unit("mm"),
-      {},
-      "Grip table, openings"},
-     &GripPoint::opening},
-    {{"grip",
-      "G",
-      "N",
-      {0, 1e6, false, false, "must be from 0 to 1e6 N: a wall cannot pull the needle in"},
-      "The grip at each opening.",
-      in_unit("N"),
-      {},
-      "Grip table, forces",
-      "force"},
-     &GripPoint::grip},
+    {{"opening", "y", "m", {0, 1, false, false, "must be from 0 to 1 m"},
+      "Openings of the hole, ascending.", in_unit("mm"), {}, "Grip table, openings"}, &GripPoint::opening},
+    {{"grip", "G", "N", {0, 1e6, false, false, "must be from 0 to 1e6 N: a wall cannot pull the needle in"},
+      "The grip at each opening.", in_unit("N"), {}, "Grip table, forces", "force"}, &GripPoint::grip},
 };
+// clang-format on
 template <>
 inline constexpr const auto& columns_of<GripPoint> = grip_point_fields;
 

@@ -73,7 +73,9 @@ class AnyRival {
   }
   void describe(auto& parameters) const {
     parameters.index(kind.index(), 0);
-    std::visit([&](const auto& run) { describe_numbers(run.rival, parameters); }, kind);
+    visit([&](const auto& run) {
+      for (const auto& number : run.rival.numbers()) parameters.numbers(run.rival.*number.value);
+    });
   }
 };
 static_assert(std::is_trivially_copyable_v<AnyRival>);

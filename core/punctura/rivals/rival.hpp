@@ -51,10 +51,4 @@ concept Punctures = Rival<R> && requires(const R rival, const typename R::State 
   { state.punctured } -> std::convertible_to<bool>;
 };
 
-/// Writes the numbers of a rival into the digest of a saved state.
-template <typename R>
-void describe_numbers(const R& rival, auto& parameters) {
-  for (const auto& number : R::numbers()) parameters.numbers(rival.*number.value);
-}
-
 }  // namespace punctura

@@ -18,18 +18,15 @@
 
 namespace punctura {
 
+// clang-format off
 inline constexpr std::tuple gate_rows{
     FieldOf<GateLimits>{{"max_speed", "", "m/s", greater_than_0, "Between two readings."}, &GateLimits::max_speed},
     FieldOf<GateLimits>{{"stale", "", "s", greater_than_0, "Longest time without a new reading."}, &GateLimits::stale},
     FieldOf<GateLimits>{{"deadline", "", "s", greater_than_0, "Longest time between ticks."}, &GateLimits::deadline},
-    FieldOf<GateLimits>{{"axis_tolerance",
-                         "",
-                         "-",
-                         {0, 0.1, true, false, "must be greater than 0 and at most 0.1"},
-                         "Deviation of the axis' length from 1."},
-                        &GateLimits::axis_tolerance},
-    FieldOf<GateLimits, std::uint32_t>{
-        {"dead_man", "", "", {}, "Buttons (bits), one of which must be held; 0 for none."}, &GateLimits::dead_man},
+    FieldOf<GateLimits>{{"axis_tolerance", "", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"},
+      "Deviation of the axis' length from 1."}, &GateLimits::axis_tolerance},
+    FieldOf<GateLimits, std::uint32_t>{{"dead_man", "", "", {},
+      "Buttons (bits), one of which must be held; 0 for none."}, &GateLimits::dead_man},
 };
 inline constexpr auto gate_fields = numbers_of(gate_rows);
 
@@ -37,34 +34,24 @@ inline constexpr Range a_force = {0, no_bound, true, true, "must be greater than
 inline constexpr FieldOf<ForceLimits> limit_fields[] = {
     {{"max_force", "", "N", a_force, "Norm."}, &ForceLimits::max_force},
     {{"continuous_force", "", "N", a_force, "Rms, over any continuous_time."}, &ForceLimits::continuous_force},
-    {{"continuous_time",
-      "",
-      "s",
+    {{"continuous_time", "", "s",
       {0, 60, true, false, "must be greater than 0 and at most 60 s: over a longer time motors would overheat"},
-      "Of the rms."},
-     &ForceLimits::continuous_time},
-    {{"ramp_time",
-      "",
-      "s",
-      {0, no_bound, true, true, "must be greater than 0: force must not come at once"},
-      "From zero to full force after arming."},
-     &ForceLimits::ramp_time},
-    {{"warm_motor",
-      "",
-      "-",
-      {0, 1, false, true, "must be from 0 to below 1"},
-      "Motor temperature (0 to 1) above which the force decreases, to zero at 1."},
-     &ForceLimits::warm_motor},
+      "Of the rms."}, &ForceLimits::continuous_time},
+    {{"ramp_time", "", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"},
+      "From zero to full force after arming."}, &ForceLimits::ramp_time},
+    {{"warm_motor", "", "-", {0, 1, false, true, "must be from 0 to below 1"},
+      "Motor temperature (0 to 1) above which the force decreases, to zero at 1."}, &ForceLimits::warm_motor},
 };
 
 inline constexpr std::tuple placement_rows{
-    FieldOf<Placement, std::array<double, 4>>{{"rotation", "", "", {}, "Quaternion w, x, y, z, of any length but 0."},
-                                              &Placement::rotation},
+    FieldOf<Placement, std::array<double, 4>>{{"rotation", "", "", {},
+      "Quaternion w, x, y, z, of any length but 0."}, &Placement::rotation},
     FieldOf<Placement, std::array<double, 3>>{{"offset", "", "m", {}, "In the scene."}, &Placement::offset},
     FieldOf<Placement>{{"scale", "", "-", greater_than_0, "Scene metres per device metre."}, &Placement::scale},
-    FieldOf<Placement>{{"tip_offset", "", "m", {}, "From the device's point to the tip along the stylus."},
-                       &Placement::tip_offset},
+    FieldOf<Placement>{{"tip_offset", "", "m", {},
+      "From the device's point to the tip along the stylus."}, &Placement::tip_offset},
 };
+// clang-format on
 inline constexpr auto placement_fields = numbers_of(placement_rows);
 
 namespace detail {

@@ -51,11 +51,10 @@ SampledCoupling<Scalar> coupling_of(const Scene& scene) {
 template <typename Scalar>
 RelaxingCoupling<Scalar> relaxing_coupling_of(const Scene& scene) {
   const auto to = [](double x) { return static_cast<Scalar>(x); };
+  const SampledCoupling<Scalar> c = coupling_of<Scalar>(scene);
   std::vector<BasicMaxwellBranch<Scalar>> branches;
   for (const MaxwellBranch& b : scene.relaxation) branches.push_back({to(b.stiffness), to(b.time_constant)});
-  return {{to(scene.coupling.stiffness), to(scene.coupling.damping)},
-          branches,
-          to(1 / scene.servo.rate) / to(scene.servo.sub_steps)};
+  return {{c.K, c.B}, branches, c.T};
 }
 
 /// The tissue in another scalar.
@@ -69,12 +68,6 @@ BasicTissue<Scalar> tissue_as(const Tissue& tissue) {
   for (const GripPoint& p : tissue.grip_table) made.grip_table.push_back({to(p.opening), to(p.grip)});
   for (const Knot& k : tissue.profile) made.profile.push_back({to(k.depth), to(k.lower), to(k.upper)});
   return made;
-}
-
-/// K06's law for each membrane.
-template <typename Scalar>
-BasicThickLaw<Scalar> k06_law(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane, std::size_t) {
-  return {needle, membrane};
 }
 }  // namespace detail
 
@@ -96,8 +89,10 @@ WideInsertion<Scalar> wide_model_of(const Scene& scene) {
 /// The model of a scene that has passed check().
 template <typename Scalar>
 BasicInsertion<Scalar> model_of(const Scene& scene) {
-  if (is_k06(scene)) return insertion_of<Scalar>(scene, coupling_of<Scalar>(scene), k06_law<Scalar>);
-  return wide_model_of<Scalar>(scene);
+  if (!is_k06(scene)) return wide_model_of<Scalar>(scene);
+  return insertion_of<Scalar>(
+      scene, coupling_of<Scalar>(scene),
+      [](const auto& needle, const auto& membrane, std::size_t) { return BasicThickLaw<Scalar>(needle, membrane); });
 }
 }  // namespace detail
 

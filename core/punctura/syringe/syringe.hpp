@@ -80,8 +80,4 @@ inline bool check(const Syringe& syringe, const std::string& path, std::vector<P
   return false;
 }
 
-inline bool check(const Outlet& outlet, const std::string& path, std::vector<Problem>& problems) {
-  return check_fields(outlet_fields, outlet, path, problems);
-}
-
 }  // namespace punctura

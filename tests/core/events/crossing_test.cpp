@@ -58,13 +58,13 @@ TEST_CASE("a grazing needle counts as 80 degrees, and a needle without a directi
   CHECK(crossing_of(c, std::numeric_limits<double>::quiet_NaN()).cos_beta == 1);
 }
 
-TEST_CASE("the crossing of a custom law is at its breaks, and with_room() does not change it") {
+TEST_CASE("the crossing of a custom law is at its breaks, and breaks at infinity do not change it") {
   const Needle needle = paper_needle;
   // The resistance grows by 100 N/m up to 2 mm and decreases by 50 N/m up to 4 mm. Behind it, the friction is 0.05 N.
   const PiecewiseBand<double, 4> table{
       {0, 2e-3, 4e-3}, {{{}, {0, {0, -100, 0}, {}}, {2e-3, {-0.2, 50, 0}, {}}, {4e-3, {-0.05, 0, 0}, {}}}}};
   for (const Crossing& turns :
-       {crossing(GivenLaw<4>{table}, needle, 1e-3, 1), crossing(GivenLaw<9>{table.with_room<9>()}, needle, 1e-3, 1)}) {
+       {crossing(GivenLaw<4>{table}, needle, 1e-3, 1), crossing(GivenLaw<9>{with_room<9>(table)}, needle, 1e-3, 1)}) {
     CHECK(turns.peak == 2e-3);
     CHECK(turns.through == 4e-3);
     CHECK(turns.shaft == 0.05);

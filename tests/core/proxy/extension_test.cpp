@@ -79,7 +79,7 @@ TEST_CASE("K06's law with 17 pieces has the same forces, bit for bit") {
   const ThickLaw law(c.needle, c.membrane);
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d own(law, Coupling{400, 1}, T, solver);
-    Proxy1d table(GivenLaw<17>{law.pieces().with_room<17>()}, Coupling{400, 1}, T, solver);
+    Proxy1d table(GivenLaw<17>{with_room<17>(law.pieces())}, Coupling{400, 1}, T, solver);
     for (double p : random_motion(noise, 3000, law.constants().X + 2 * law.thickness(), T))
       REQUIRE(table.step(p) == own.step(p));
   }

@@ -38,8 +38,7 @@ BasicCrossing<V> select(const M& mask, const BasicCrossing<V>& a, const BasicCro
 inline constexpr double pop_again = 0.1;
 
 namespace detail {
-/// The index of the last break. Behind it, the law is constant. Breaks at infinity, as with_room() adds them, are
-/// ignored.
+/// The index of the last break. Behind it, the law is constant. Breaks at infinity are not in use.
 template <typename Pieces>
 std::size_t last_break(const Pieces& law) noexcept {
   std::size_t last = law.breaks.size() - 1;
