@@ -21,6 +21,7 @@
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/servo/record.hpp"
 #include "punctura/servo/snapshot.hpp"
+#include "punctura/state/archive.hpp"
 
 namespace punctura {
 
@@ -169,14 +170,10 @@ class ServoGuard {
     state.require((self.state_ == ServoState::faulted) == (self.fault_ != Fault::none));
     state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
     state.index(self.commands_, std::numeric_limits<std::uint32_t>::max());
-    bool timed = std::isfinite(self.time_);
-    double time = timed ? self.time_ : 0;
-    state.flag(timed);
-    state.numbers(time, self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_);
+    archive_or_nan(self.time_, state);
+    state.numbers(self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_);
     state.flag(self.fade_starts_);
     state.require(self.fade_ >= 0 && self.fade_ <= 1);
-    if constexpr (std::remove_reference_t<decltype(state)>::reading)
-      self.time_ = timed ? time : std::numeric_limits<double>::quiet_NaN();
   }
   void describe(auto& parameters) const {
     parameters.flag(syringe_.has_value());

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -124,6 +125,16 @@ class StateReader {
   std::span<const std::byte> from_;
   bool good_ = true;
 };
+
+/// Writes or reads a number that may be NaN.
+void archive_or_nan(auto& value, auto& state) {
+  bool known = !std::isnan(value);
+  auto stored = known ? value : 0;
+  state.flag(known);
+  state.numbers(stored);
+  if constexpr (std::remove_reference_t<decltype(state)>::reading)
+    value = known ? stored : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// The header of the bytes of a state.
 struct StateHeader {

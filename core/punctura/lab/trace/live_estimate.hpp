@@ -12,6 +12,7 @@
 #include "punctura/lab/trace/live_puncture.hpp"
 #include "punctura/model/field.hpp"
 #include "punctura/model/words.hpp"
+#include "punctura/state/archive.hpp"
 
 namespace punctura {
 
@@ -125,26 +126,13 @@ class LiveEstimate {
     state.index(r.punctures, std::uint64_t{1} << 32);
     state.flag(r.punctured);
     state.numbers(r.drop);
-    number(r.slope.value, state);
-    number(r.slope.error, state);
-    number(r.plateau.value, state);
-    number(r.plateau.error, state);
-    number(r.puncture_depth, state);
+    for (auto* number : {&r.slope.value, &r.slope.error, &r.plateau.value, &r.plateau.error, &r.puncture_depth})
+      archive_or_nan(*number, state);
   }
   void describe(auto& parameters) const { settings_.describe(parameters); }
 
  private:
   static constexpr double plateau_memory = 5e-3;  ///< m
-
-  /// A number that may be NaN.
-  static void number(auto& value, auto& state) {
-    bool known = !std::isnan(value);
-    double stored = known ? value : 0;
-    state.flag(known);
-    state.numbers(stored);
-    if constexpr (std::remove_reference_t<decltype(state)>::reading)
-      value = known ? stored : std::numeric_limits<double>::quiet_NaN();
-  }
 
   void start(LiveLine& line, double depth) noexcept {
     line.reset();

@@ -14,16 +14,9 @@ namespace punctura {
 class LiveLine {
  public:
   /// memory: length over which samples are forgotten, m. noise: smallest standard deviation of a sample, N.
-  LiveLine(double memory, double noise) noexcept : memory_(memory), noise_(noise) { reset(); }
+  LiveLine(double memory, double noise) noexcept : memory_(memory), noise_(noise) {}
 
-  void reset() noexcept {
-    level_ = slope_ = squares_ = weight_ = 0;
-    p00_ = 1e4;  // P of a line that may be anything: (100)^2, and (1e6 / m)^2
-    p01_ = 0;
-    p11_ = 1e12;
-    m00_ = m01_ = m11_ = 0;
-    samples_ = 0;
-  }
+  void reset() noexcept { *this = LiveLine(memory_, noise_); }
 
   /// A sample of the force (N), `step` (m, 0 or more) behind the last one.
   void add(double step, double force) noexcept {
@@ -74,8 +67,8 @@ class LiveLine {
 
   double memory_, noise_;
   double level_ = 0, slope_ = 0;
-  double p00_ = 0, p01_ = 0, p11_ = 0;  ///< P
-  double m00_ = 0, m01_ = 0, m11_ = 0;  ///< M
+  double p00_ = 1e4, p01_ = 0, p11_ = 1e12;  ///< P of a line that may be anything: (100)^2, and (1e6 / m)^2
+  double m00_ = 0, m01_ = 0, m11_ = 0;       ///< M
   double squares_ = 0, weight_ = 0, samples_ = 0;
 };
 

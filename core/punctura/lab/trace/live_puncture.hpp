@@ -20,14 +20,7 @@ struct LivePunctureSettings {
 /// again; when it rests, the greatest force follows the force (relaxation).
 class LivePuncture {
  public:
-  explicit LivePuncture(const LivePunctureSettings& settings = {}) noexcept : settings_(settings) { reset(); }
-
-  void reset() noexcept {
-    started_ = falling_ = false;
-    depth_ = deepest_ = velocity_ = greatest_ = least_ = sum_ = force_ = calm_ = low_ = low_at_ = 0;
-    variance_ = settings_.noise * settings_.noise;
-    drop_ = 0;
-  }
+  explicit LivePuncture(const LivePunctureSettings& settings = {}) noexcept : settings_(settings) {}
 
   /// One tick. depth: m, growing inwards. force: N, against the insertion. Returns true in the tick in which a puncture
   /// is found.
@@ -121,7 +114,7 @@ class LivePuncture {
   LivePunctureSettings settings_;
   bool started_ = false, falling_ = false;
   double depth_ = 0, deepest_ = 0, velocity_ = 0, force_ = 0, calm_ = 0;
-  double greatest_ = 0, least_ = 0, sum_ = 0, variance_ = 0, drop_ = 0;
+  double greatest_ = 0, least_ = 0, sum_ = 0, variance_ = settings_.noise * settings_.noise, drop_ = 0;
   double low_ = 0, low_at_ = 0;  ///< the last new low of the calm force in a drop, N, and its depth, m
 };
 
