@@ -65,8 +65,7 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
     x, punctured, converged, costs = _search(few, trace.force[rows], seed)
     every = Problem(kind, path, walls)
     at = [None if i is None else int(rows[i]) for i in punctured]
-    x = every.inside(x * few.scale / every.scale) if len(every.first) == len(few.first) else every.first
-    x, converged = _solve(every, trace.force, x, at, 30)
+    x, converged = _solve(every, trace.force, every.from_other(few, x), at, 30)
     at = _best_punctures(every, trace.force, x, at)
     x, converged = _solve(every, trace.force, x, at, 60)
     force = every.force(x, at)
@@ -82,7 +81,7 @@ def fit_rival(kind: RivalKind, trace: Trace, segments: Segments | None = None, *
         converged=converged,
         agreeing=sum(cost <= 1.01 * best + 1e-12 for cost in costs),
         starts=len(costs),
-        held_out_rmse=_held_out(few, trace.force[rows], few.inside(x * every.scale / few.scale), punctured, masks),
+        held_out_rmse=_held_out(few, trace.force[rows], few.from_other(every, x), punctured, masks),
         surface=layers[0].surface,
     )
 

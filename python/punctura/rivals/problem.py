@@ -53,6 +53,19 @@ class Problem:
         moved: Array = np.clip(x, self.low + margin, self.high - margin)
         return moved
 
+    def from_other(self, other: Problem, x: Array) -> Array:
+        """The x of another problem of the same walls in the scale of this one; its own start where only this one fits.
+
+        Of other samples, other numbers can be visible.
+        """
+        own = self.first.copy()
+        for mine, at, theirs, start in zip(self._fitted, self._at, other._fitted, other._at, strict=True):
+            places = {number.name: start + 1 + j for j, number in enumerate(theirs)}
+            rows = [(at, start)] + [(at + 1 + j, places[n.name]) for j, n in enumerate(mine) if n.name in places]
+            for to, source in rows:
+                own[to] = x[source] * other.scale[source] / self.scale[to]
+        return self.inside(own)
+
     def other_start(self, rng: np.random.Generator) -> Array:
         """A random start: numbers within a factor of about 2, surfaces anywhere between their bounds."""
         x = self.first * np.exp(0.7 * rng.standard_normal(len(self.first)))

@@ -2,6 +2,7 @@
 
 import json
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import punctura as pn
@@ -10,6 +11,9 @@ from punctura.identify.noise import effective_samples
 from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, fit_rival, kinds, load_layers, save_layers
 from punctura.rivals.chatter import places_of, rival_chatter
 from punctura.rivals.first_stretch import compared, first_stretch, k06_on, rival_on
+from punctura.rivals.layers import path_of
+from punctura.rivals.problem import Problem
+from punctura.rivals.starts import walls_of
 from punctura.rivals.words import table
 from punctura.trace import Trace, TraceError, segment
 from punctura.trace.information import information
@@ -56,6 +60,17 @@ def test_friction_outwards_is_fitted_only_with_a_withdrawal():
     inwards = fit_rival(kinds()["exponential"], trace_of("exponential", with_out))
     assert both.parameters == inwards.parameters + 1
     assert both.layers[0].rival.numbers["out_ratio"] == pytest.approx(0.6, rel=0.05)
+
+
+def test_a_vector_moves_between_problems_that_fit_different_numbers():
+    trace = trace_of("exponential", TRUE["exponential"], withdrawal=True)
+    walls, path = walls_of(trace, segment(trace), one=False), path_of(trace, segment(trace))
+    every = Problem(kinds()["exponential"], path, walls)
+    few = Problem(kinds()["exponential"], replace(path, shows=frozenset({"insertion"})), walls)
+    x = few.inside(1.1 * few.first)
+    there = every.from_other(few, x)
+    assert len(there) == len(x) + 1
+    np.testing.assert_allclose(few.from_other(every, there), x, rtol=1e-12)
 
 
 def test_the_comparison_puts_the_true_model_first():
