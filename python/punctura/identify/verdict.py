@@ -68,19 +68,18 @@ def verdicts(
 
 def _drifting(fit: Fit, air: AirNoise, explained: bool) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
-    if slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
+    if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
-    if not air.allows(*fit.noise.most_likely()):
-        if explained:
-            yield (
-                f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
-                "sensor, whose force in air does not show it. Do not trust the intervals."
-            )
+    if air.allows(*fit.noise.most_likely()):
+        yield (
+            f"The measured force drifts slowly about the model, by {slow:.2g} N. The interval of a surface is then too "
+            "narrow. If the model is right (see punctura rivals), this is a drift of the sensor: let it warm up, "
+            "record a second before contact, and repeat the insertion."
+        )
     else:
         yield (
-            f"The measured force drifts slowly about the model, by {slow:.2g} N, beside a noise of {other:.2g} N. The "
-            "interval of a surface is then too narrow. If the model is right (see punctura rivals), this is a drift "
-            "of the sensor: let it warm up, record a second before contact, and repeat the insertion."
+            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
+            "sensor, whose force in air does not show it. Do not trust the intervals."
         )
 
 

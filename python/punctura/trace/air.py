@@ -17,7 +17,7 @@ LASTS = 3  # samples, that a departure lasts at least
 NOISES, SHARE = 8.0, 0.03  # a departure is larger than so many times the noise, and this share of the greatest force
 FIRM = 0.5  # of the greatest force: so much only tissue resists
 NEAR = 0.02  # of the range of the depths
-STEEP = 0.5  # of the slope behind the contact: in air the force does not rise so
+STEEP, SURE = 0.5, 3.0  # of the slope behind the contact, and so many errors: in air the force rises by less
 AROUND = 5  # times the samples of the first rise: the samples before it in which the contact is looked for
 
 
@@ -97,18 +97,28 @@ def contact_sample(depth: Array, force: Array, after: Array | None = None) -> in
         used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
         tried = used[:: max(1, len(used) // 100)]
         best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
-        if best >= FEWEST and not _rises(depth[: best + 1], force[: best + 1], depth[best:top], force[best:top], noise):
+        if best >= FEWEST and not _rises(depth[:top], force[:top], best):
             return best
     return None
 
 
-def _rises(depth: Array, force: Array, depth_behind: Array, force_behind: Array, noise: float) -> bool:
-    """Whether the force (n,) before a contact rises with the depth as it does behind it: then it is no air."""
-    way, rest = float(np.ptp(depth)), float(np.ptp(depth_behind))
-    if len(force_behind) < FEWEST or not min(way, rest) > 0:
+def _rises(depth: Array, force: Array, contact: int) -> bool:
+    """Whether the force (n,) may rise with the depth before the contact as it does behind it: then it is no air.
+
+    Too few samples, or too noisy ones, cannot show that it is air. A needle that rests there shows it.
+    """
+    if float(np.ptp(depth[: contact + 1])) <= NOISES * noise_of(depth) or len(force) - contact < FEWEST:
         return False
-    slope, behind = (float(np.polyfit(*both, 1)[0]) for both in ((depth, force), (depth_behind, force_behind)))
-    return bool(slope * np.sign(behind) > max(STEEP * abs(behind), NOISES * max(noise, noise_of(force)) / way))
+    (before, error), (behind, _) = (_slope(depth[p], force[p]) for p in (slice(contact + 1), slice(contact, None)))
+    return bool(before * np.sign(behind) + SURE * error > STEEP * abs(behind))
+
+
+def _slope(depth: Array, force: Array) -> tuple[float, float]:
+    """Of the force over the depth, N/m, and its standard error."""
+    where, height = depth - depth.mean(), force - force.mean()
+    square = max(float(where @ where), 1e-300)
+    slope = float(where @ height) / square
+    return slope, float(np.std(height - slope * where)) / float(np.sqrt(square))
 
 
 def _without_spikes(force: Array) -> Array:

@@ -110,6 +110,14 @@ def test_a_zero_that_has_changed_behind_the_tissue_is_a_drift():
     assert made.depth[segment(made).contact] < 9.5e-3
 
 
+@pytest.mark.parametrize("curve", [0.0, 4e3])
+def test_a_force_that_rises_from_the_first_sample_on_has_no_contact(curve):
+    depth = np.linspace(0, 29e-3, 10_000)
+    force = 220 * np.minimum(depth, 5e-3) + curve * np.minimum(depth, 5e-3) ** 2 - 800 * np.clip(depth - 5e-3, 0, 5e-4)
+    noise = 0.01 * np.random.default_rng(1).normal(size=len(depth))
+    assert segment(Trace(depth, force + noise, np.arange(len(depth)) * 0.01)).contact is None
+
+
 def test_a_needle_that_stays_in_the_tissue_has_no_exit():
     made = layers()
     for end in (5.5, 6.2):  # s: on the way out, but deeper than the firm wall
