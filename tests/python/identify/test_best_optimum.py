@@ -37,7 +37,7 @@ def one_start(monkeypatch):
     monkeypatch.setattr("punctura.identify.search.with_contacts_moved", lambda found: found)
 
 
-@pytest.mark.parametrize("seed", [27, 39])
+@pytest.mark.parametrize("seed", [19, 27])
 def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_start, monkeypatch):
     trace, needle = rise(seed)
     reports = []
