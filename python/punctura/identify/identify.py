@@ -173,7 +173,8 @@ def _identified(
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
     effective = effective_samples(plain.residuals, len(plain.u))
     doubt = doubts(trace, segments, plain, choice.current.extensions, air)
-    advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok)
+    whitened = final.misfit.whitening is not None
+    advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok, whitened)
     advice = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *advice)
     advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))

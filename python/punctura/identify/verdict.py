@@ -51,30 +51,32 @@ LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
 
 SEEN = 0.002  # of the greatest force: a smaller drift does not matter
-DRIFTING = 1.5  # times the other noise: with more slow noise, the interval of a surface is too narrow
+DRIFTING = 1.5  # times the other noise: with more slow noise, intervals of least squares are too narrow
 
 
 def verdicts(
-    estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, air: AirNoise, explained: bool = True
-) -> tuple[str, ...]:
+    estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, air: AirNoise, explained: bool = True,
+    whitened: bool = False,
+) -> tuple[str, ...]:  # fmt: skip
     """One sentence for each thing that the trace cannot tell, with the experiment that would.
 
     fit: of all samples, or of the thinned ones, for the noise; air: of the same samples. explained: False if it is said
-    that it is not.
+    that it is not. whitened: slow noise is part of the last fit.
     """
     unknown = _not_identifiable(estimates, trace, segments) if explained else _no_bounds(estimates)
-    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained))
+    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
 
 
-def _drifting(fit: Fit, air: AirNoise, explained: bool) -> Iterator[str]:
+def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
     if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
     if air.allows(*fit.noise.most_likely()):
         yield (
-            f"The measured force drifts slowly about the model, by {slow:.2g} N. The interval of a surface is then too "
-            "narrow. If the model is right (see punctura rivals), this is a drift of the sensor: let it warm up, "
-            "record a second before contact, and repeat the insertion."
+            f"The measured force drifts slowly about the model, by {slow:.2g} N. "
+            + ("The fit takes it into account. " if whitened else "The intervals are then too narrow. ")
+            + "If the model is right (see punctura rivals), this is a drift of the sensor: let it warm up, record a "
+            "second before contact, and repeat the insertion."
         )
     else:
         yield (
