@@ -37,9 +37,9 @@ def sitting(folder: Path, port: int = 0) -> StudioProcess:
     )
 
 
-def answered(folder: Path, count: int, total: int = 20) -> None:
+def answered(folder: Path, count: int) -> None:
     """The protocol, and the first answers of P01."""
-    (folder / "mine.toml").write_text(PROTOCOL.replace("total = 20", f"total = {total}"))
+    (folder / "mine.toml").write_text(PROTOCOL)
     protocol = load_protocol(folder / "mine.toml")
     with Session(protocol, folder / "people", "P01", consent=True) as session:
         for _ in range(count):
