@@ -81,7 +81,7 @@ wheel_for() (
   cd "$work/empty"
   pip install -q "$wheel" # with what is mandatory alone
   python "$root/examples/python/01_pop.py"
-  pip install -q "${wheel}[all]" pytest pytest-timeout hypothesis
+  pip install -q "${wheel}[all,gym]" pytest pytest-timeout hypothesis
   punctura --version
   punctura paths
   punctura example motion

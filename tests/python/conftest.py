@@ -73,6 +73,7 @@ def _group_of(file):
     return found[1] if found else ""
 
 
+@pytest.hookimpl(optionalhook=True)  # without xdist, too: the wheel's tests
 def pytest_xdist_make_scheduler(config, log):
     """With pytest 9.2, the option --dist loadgroup of xdist 3.8 ignores the groups."""
     from xdist.scheduler import LoadGroupScheduling
