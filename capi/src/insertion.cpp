@@ -5,10 +5,7 @@
 
 using namespace punctura::c;
 
-struct punctura_insertion : Stepper<SceneInsertion> {
-  using Stepper::Stepper;
-};
-PUNCTURA_STEPPER(insertion)
+PUNCTURA_STEPPER(insertion, punctura::Insertion)
 PUNCTURA_STEPS_IN_SPACE(insertion)
 
 punctura_status punctura_insertion_new(const punctura_scene* scene, punctura_insertion** insertion) {
@@ -27,7 +24,7 @@ punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t cou
     for (size_t i = 0; forces && i < count; ++i) no_force(forces + 3 * i);
     return PUNCTURA_BAD_ARGUMENT;
   }
-  SceneInsertion& object = insertion->stepping();
+  punctura::Insertion& object = insertion->stepping();
   punctura_status status = ok;
   for (size_t i = 0; i < count; ++i) {
     if (status == ok)

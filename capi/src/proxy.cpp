@@ -32,14 +32,8 @@ punctura_status new_proxy(const punctura_scene* scene, int32_t membrane, Handle*
 
 using namespace punctura::c;
 
-struct punctura_proxy1d : Stepper<OnALine> {
-  using Stepper::Stepper;
-};
-struct punctura_proxy3d : Stepper<InSpace> {
-  using Stepper::Stepper;
-};
-PUNCTURA_STEPPER(proxy1d)
-PUNCTURA_STEPPER(proxy3d)
+PUNCTURA_STEPPER(proxy1d, OnALine)
+PUNCTURA_STEPPER(proxy3d, InSpace)
 PUNCTURA_STEPS_IN_SPACE(proxy3d)
 
 punctura_status punctura_proxy1d_new(const punctura_scene* scene, int32_t membrane, punctura_proxy1d** proxy) {

@@ -16,10 +16,6 @@ struct punctura_scene {
 
 namespace punctura::c {
 
-/// The types that build() and build_insertion() make.
-using SceneInsertion = BasicInsertion<double>;
-using SceneServo = BasicServoStep<double>;
-
 /// A new scene from a text. read(text, scene, problems) adds what is wrong.
 template <typename Read>
 punctura_status scene_from(const char* text, std::size_t size, punctura_scene** scene, Read&& read) {

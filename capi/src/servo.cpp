@@ -8,10 +8,7 @@ using punctura::ForceLimits;
 using punctura::GateLimits;
 using punctura::Snapshot;
 
-struct punctura_servo : Stepper<SceneServo> {
-  using Stepper::Stepper;
-};
-PUNCTURA_STEPPER(servo)
+PUNCTURA_STEPPER(servo, punctura::ServoStep)
 PUNCTURA_CALL(servo, arm)
 PUNCTURA_CALL(servo, disarm)
 
@@ -54,7 +51,7 @@ void give_record(const Snapshot& t, double thumb_force, punctura_record* record)
                 t.syringe.left});
 }
 
-punctura_status tick(SceneServo& servo, const punctura_sample& sample, punctura_record* record) noexcept {
+punctura_status tick(punctura::ServoStep& servo, const punctura_sample& sample, punctura_record* record) noexcept {
   const Snapshot& snapshot = servo.step(sample_of(sample));
   give_record(snapshot, static_cast<double>(servo.thumb_force()), record);
   return ok;

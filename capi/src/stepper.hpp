@@ -131,14 +131,17 @@ punctura_status step_in_space(Object& object, const double position[3], const do
 
 }  // namespace punctura::c
 
-// The functions of punctura.h that all steppers have. A name of C needs a macro.
+// A stepper, and the functions of punctura.h that all of them have. A name of C needs a macro.
 #define PUNCTURA_CALL(name, call)                                    \
   punctura_status punctura_##name##_##call(punctura_##name* given) { \
     if (!given) return PUNCTURA_BAD_ARGUMENT;                        \
     given->stepping().call();                                        \
     return ok;                                                       \
   }
-#define PUNCTURA_STEPPER(name)                                                                        \
+#define PUNCTURA_STEPPER(name, Object)                                                                \
+  struct punctura_##name : Stepper<Object> {                                                          \
+    using Stepper::Stepper;                                                                           \
+  };                                                                                                  \
   void punctura_##name##_free(punctura_##name* given) { delete given; }                               \
   PUNCTURA_CALL(name, reset)                                                                          \
   punctura_status punctura_##name##_commit(punctura_##name* given) {                                  \
