@@ -97,14 +97,17 @@ class Rule:
     def _may_be_slow_noise(self, new: Candidate, old: Candidate) -> bool:
         """Whether what `new` adds may be slow noise of the sensor.
 
-        It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as the
-        air has. A relaxation looks like a drift, so there it is as much as the air allows.
+        It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as the air
+        has. If `old` leaves such noise, the evidence must be STRONG: a wall that never pops is like a slow change. A
+        relaxation looks like a drift, so there it is as much as the air allows.
         """
         more = set(new.model.names) - set(old.model.names)
         relaxing = any(name.startswith(RELAXATION) for name in more)
         noise = self.air.allows if relaxing else self.air.supports
         left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
-        return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= EVIDENCE
+        left = old.fit.noise.most_likely()
+        needed = STRONG if left[0].share > 0 and self.air.supports(*left) else EVIDENCE
+        return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= needed
 
     def held_out_error(self, one: Candidate) -> float | None:
         """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""

@@ -27,8 +27,9 @@ def test_whitened_noise_is_white_and_the_last_sample_keeps_its_size(mixture):
     np.testing.assert_allclose(whitening.back(np.eye(n)), whole.T, atol=1e-12)
 
 
-def test_a_random_walk_that_the_air_shows_is_no_wall_and_leaves_narrow_intervals():
-    made, needle, truth = TOOL["random_trace"](2, TOOL["Conditions"](machine=True, walk=0.03))
+@pytest.mark.parametrize("seed", [2, 20023])
+def test_a_random_walk_that_the_air_shows_is_no_wall_and_leaves_narrow_intervals(seed):
+    made, needle, truth = TOOL["random_trace"](seed, TOOL["Conditions"](machine=True, walk=0.03))
     found = identify(made, needle)
     assert len(found.parameters.membranes) == 1 and found.doubts.explained.ok and found.extensions == ()
     assert all(one.identifiable and one.low < truth.get(one.name, one.value) < one.high for one in found.estimates[2:6])
