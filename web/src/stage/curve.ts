@@ -158,7 +158,7 @@ export class CurvePicture {
     // The numbers of the force stand above the skin.
     const axis = Math.max(TOP * letter, Math.min(skin - 2 * letter, height));
     this.axis = axis;
-    const step = niceStep(force.max - force.min, Math.max(2, width / 80));
+    const step = niceStep(force.max - force.min, Math.max(2, width / 110));
     for (const value of ticks(force.min, force.max, step)) {
       const x = Math.round(force.px(value)) + 0.5;
       const strong = Math.abs(value) < step / 2;
