@@ -97,20 +97,21 @@ def contact_sample(depth: Array, force: Array, after: Array | None = None) -> in
         used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
         tried = used[:: max(1, len(used) // 100)]
         best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
-        if best >= FEWEST and not _rises(depth[:top], force[:top], best):
+        if best >= FEWEST and not _rises(depth, force, best, top):
             return best
     return None
 
 
-def _rises(depth: Array, force: Array, contact: int) -> bool:
-    """Whether the force (n,) may rise with the depth before the contact as it does behind it: then it is no air.
+def _rises(depth: Array, force: Array, contact: int, top: int) -> bool:
+    """Whether the force rises with the depth before the contact as it does behind it, up to sample `top`: it is no air.
 
-    Too few samples, or too noisy ones, cannot show that it is air. A needle that rests there shows it.
+    Fewer samples than those that tell the zero must show that they are air. A needle that rests there shows it.
     """
-    if float(np.ptp(depth[: contact + 1])) <= NOISES * noise_of(depth) or len(force) - contact < FEWEST:
+    if float(np.ptp(depth[: contact + 1])) <= NOISES * noise_of(depth) or top - contact < FEWEST:
         return False
-    (before, error), (behind, _) = (_slope(depth[p], force[p]) for p in (slice(contact + 1), slice(contact, None)))
-    return bool(before * np.sign(behind) + SURE * error > STEEP * abs(behind))
+    (before, error), (behind, _) = (_slope(depth[p], force[p]) for p in (slice(contact + 1), slice(contact, top)))
+    doubt = SURE * error if contact < _first(force) else 0.0
+    return bool(before * np.sign(behind) + doubt > STEEP * abs(behind))
 
 
 def _slope(depth: Array, force: Array) -> tuple[float, float]:
