@@ -28,7 +28,7 @@ Done: TypeAlias = tuple[str, dict[str, str | int]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
-IN_SITTING = (ask.Respond, ask.Arm, ask.Reset, ask.TripFault)  # and a pause
+IN_SITTING = (ask.Respond, ask.TripFault)  # and a pause; "Go on" turns the force on
 
 
 class NotNow(ValueError):

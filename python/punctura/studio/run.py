@@ -136,10 +136,10 @@ class Run:
         return self._listener.read(most)
 
     @property
-    def faulted(self) -> bool:
-        """Whether the last tick was in the state of a fault."""
+    def fault(self) -> Fault:
+        """Of the last tick."""
         ticks = self.loop.latest()
-        return len(ticks) > 0 and int(ticks.fault[-1]) != Fault.none.value
+        return Fault(int(ticks.fault[-1])) if len(ticks) else Fault.none
 
     @property
     def silence(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from punctura._core import Fault
 from punctura.record import RecorderStatus
 from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
@@ -118,7 +119,7 @@ class Runs:
     def end_run(self, then: Then | None = None) -> None:
         """Ends the run. Finalizes the recording in the background; `then` gets the result, in that thread."""
         self.run.stop()
-        if self.run.faulted or self.run.silence:
+        if self.run.fault != Fault.none or self.run.silence:
             self.arming.withhold()
         self.turn()
         finish_activity = self.activities.stop()

@@ -120,8 +120,10 @@ class PerceptionSitting:
         """The run of a trial."""
         studio, trial = self._studio, self._trial
         assert trial
-        if not studio.arming.armed:  # only a person turns it on again, docs/safety.md
-            self._say("The force is off. It comes back when you go on.", GO, lambda _: self._armed())
+        fault = studio.run.fault  # of the run between the trials
+        if fault != Fault.none or not studio.arming.armed:  # only a person turns it on again, docs/safety.md
+            why = f": {describe(fault)}" if fault != Fault.none else ""
+            self._say(f"The force is off{why}. It comes back when you go on.", GO, lambda _: self._armed())
             return
         if self._attempt == 0:  # a kill may have ended this trial before its answer
             self._discard("*")
@@ -136,6 +138,8 @@ class PerceptionSitting:
             self._explore()
 
     def _armed(self) -> None:
+        if self._studio.run.fault != Fault.none:
+            self._idle()
         self._studio.arm()
         self._begin()
 
@@ -181,8 +185,12 @@ class PerceptionSitting:
             self._finish()
             return
         self._say(WAIT)
-        self._studio.edit(self._scene())
-        self._explore()
+        try:
+            self._studio.edit(self._scene())
+        except (PuncturaError, ValueError) as bad:
+            self._finish(str(bad))
+        else:
+            self._explore()
 
     def _finish(self, reason: str = "") -> None:
         """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
@@ -206,11 +214,13 @@ class PerceptionSitting:
         self._idle()
 
     def _idle(self) -> None:
-        """A run without force and recording."""
-        self._studio.begin_activity(self, self._studio.run.loaded, self._studio.run.pose)
-        self._studio.run.loop.pause()
+        """A run without force and recording. If the device does not start, the next trial says so."""
+        studio = self._studio
+        studio.defects.guard(lambda: studio.begin_activity(self, studio.run.loaded, studio.run.pose))
+        studio.run.loop.pause()
 
     def _again(self, why: str) -> None:
+        self._studio.run.loop.pause()  # the run may be the one before, which began again
         self._discard()
         words = f"The trial is repeated: {why.rstrip('. ')}. {WAIT}"
         self._say(words, GO, lambda _: self._armed())
@@ -264,10 +274,10 @@ class PerceptionSitting:
             self._touched = False
             self._say(f"Not through yet: push deeper. {self._words()}", covered=not self._protocol.file.picture)
         fault = Fault(int(ticks.fault[-1]))
-        if fault != Fault.none or (self._was_through and outside):
+        why = describe(fault) if fault != Fault.none else "the force was turned off" * (not self._studio.arming.armed)
+        if why or (self._was_through and outside):
             self._over = True
-            end = self._explored if fault == Fault.none else lambda: self._finish(describe(fault))
-            self._studio.jobs.post(end)
+            self._studio.jobs.post(partial(self._finish, why) if why else self._explored)
         return ()
 
     def _press(self, buttons: npt.NDArray[np.integer]) -> None:

@@ -239,7 +239,7 @@ def test_the_page_is_told_what_is_wrong_with_the_second_device(monkeypatch):
     run.start()
     wait_until(lambda: run.thumb.ticks > 10)
     thumb.position = (math.nan, 0.0, 0.0)
-    wait_until(lambda: run.faulted)
+    wait_until(lambda: run.fault == Fault.thumb)
     run.stop()
     thumb.die()
     pump.turn()

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from protocols import COMPARES, YES, written
-from punctura._core import ForceLimits
+from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import Session, load_protocol, read_session
 from punctura.record import open_recording
 from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import from_name
-from punctura.studio.run import Settings
+from punctura.studio.run import Run, Settings
 from punctura.studio.serve import StudioServer
 from punctura.studio.sitting import PerceptionSitting
 from waiting import LATE_ALLOWED
@@ -126,7 +126,7 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         server.session.bench.settings = Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED))
         person.answers("Go on")
         person.reads("push")
-        assert person.page.ask(do="pause")["ok"]
+        server.session.run.loop.pause()  # as without the dead-man's button
         person.goes_through()
         person.reads("repeated: the force was not on")
         person.answers("Go on")
@@ -141,6 +141,38 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         person.answers("Go on")
         person.reads("Trial 2")
     assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes"]
+
+
+def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def unplugged(run: Run) -> None:
+        raise DeviceError("cannot open")
+
+    with sat(tmp_path, YES) as (person, server):
+        person.reads("The session begins.")
+        assert person.page.ask(do="trip_fault")["ok"]
+        person.page.wait(lambda: server.session.run.fault != Fault.none)
+        assert not any(person.page.ask(do=wish)["ok"] for wish in ("arm", "reset"))  # no force between the trials
+        person.answers("Go on")
+        person.reads("The force is off: the device")
+        person.answers("Go on")
+        person.reads("Hold the needle")
+        assert person.page.ask(do="pause")["ok"]
+        person.reads("repeated: the force was turned off")
+        with monkeypatch.context() as now:
+            now.setattr(Run, "start", unplugged)
+            person.answers("Go on")
+            person.reads("repeated: cannot open")
+        person.answers("Go on")
+        person.reads("push")
+        with monkeypatch.context() as now:
+            now.setattr(Run, "start", unplugged)
+            assert person.page.ask(do="trip_fault")["ok"]
+            person.reads("repeated: the device")
+        person.answers("Go on")
+        person.reads("push")
+        assert person.page.ask(do="pause")["ok"]
+        person.reads("repeated: the force was turned off")
+    assert server.session.failure is None
 
 
 def test_the_buttons_of_a_device_answer_and_an_answer_to_another_question_does_not(tmp_path: Path) -> None:
