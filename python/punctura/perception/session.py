@@ -195,15 +195,19 @@ def parsed(data: bytes, path: Path) -> list[JsonObject]:
     return lines
 
 
+def recordings(folder: Path, participant: str, trial: str = r"\d{4,}") -> list[Path]:
+    """Also of a trial that was never answered, and what a kill left of one. trial: four digits; all if not given."""
+    own = re.compile(rf"{re.escape(participant)}-{trial}-\d+\.parquet(\..+)?")
+    return [file for file in folder.iterdir() if own.fullmatch(file.name)]
+
+
 def delete_participant(folder: Path, participant: str) -> list[Path]:
     """Deletes all that the folder has of a participant; returns the paths. Raises SessionError if there is nothing."""
     path = folder / f"{participant}{SUFFIX}"
     if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
         raise SessionError(f"{folder} has no participant {participant!r}")
     names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
-    # Also of a trial that was never answered, and what a kill left of one.
-    own = re.compile(re.escape(participant) + r"-\d{4,}-\d+\.parquet(\..+)?")
-    names |= {file.name for file in folder.iterdir() if own.fullmatch(file.name)}
+    names |= {file.name for file in recordings(folder, participant)}
     found = [file for name in sorted(names) if Path(name).name == name and (file := folder / name).is_file()]
     for file in [*found, path]:
         file.unlink()

@@ -25,7 +25,7 @@ from punctura.perception.felt import READY_S, Spoilt, felt_of
 from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import Session as Answers
-from punctura.perception.session import agreed
+from punctura.perception.session import agreed, recordings
 from punctura.perception.stimulus import Felt
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
@@ -126,7 +126,7 @@ class PerceptionSitting:
             self._say(f"The force is off{why}. It comes back when you go on.", GO, lambda _: self._armed())
             return
         if self._attempt == 0:  # a kill may have ended this trial before its answer
-            self._discard("*")
+            self._discard()
         self._attempt += 1
         self._interval = 0
         about = {"participant": self._participant, "trial": trial.number}
@@ -143,13 +143,14 @@ class PerceptionSitting:
         self._studio.arm()
         self._begin()
 
-    def _name(self, attempt: object = None) -> str:
+    def _name(self) -> str:
         assert self._trial
-        return f"{self._participant}-{self._trial.number:04d}-{attempt or self._attempt}"
+        return f"{self._participant}-{self._trial.number:04d}-{self._attempt}"
 
-    def _discard(self, attempt: object = None) -> None:
-        """Recordings of this trial."""
-        for file in self._folder.glob(f"{self._name(attempt)}.parquet*"):
+    def _discard(self) -> None:
+        """The recordings of this trial."""
+        assert self._trial
+        for file in recordings(self._folder, self._participant, f"{self._trial.number:04d}"):
             file.unlink()
 
     def _scene(self) -> Loaded:

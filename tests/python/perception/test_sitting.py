@@ -112,13 +112,17 @@ def test_no_consent_no_session(tmp_path: Path) -> None:
 
 def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """By a limit, by a fault, without force; and an answer that the disk does not take is asked for again."""
+    (tmp_path / "out").mkdir()
+    left, others = (tmp_path / "out" / f"P01-0000-{name}.parquet" for name in ("7", "0005-1"))  # P01's, P01-0000's
+    for file in (left, others):
+        file.write_bytes(b"")
     with sat(tmp_path, YES, ForceLimits(max_force=0.2)) as (person, server):
         person.reads("The session begins.")
         person.answers("Go on")
         person.goes_through(depth=0.001)
         person.goes_through("Not through yet: push deeper.")
         person.reads("repeated: the force was cut: peak limit. Hold")
-        assert not list((tmp_path / "out").glob("*.parquet*"))
+        assert list((tmp_path / "out").glob("*.parquet*")) == [others]
         person.answers("Go on")
         person.reads("push")
         assert person.page.ask(do="trip_fault")["ok"]
