@@ -75,10 +75,13 @@ def test_masking_noise_has_as_much_power_in_each_octave() -> None:
     assert abs(sound[0] - sound[-1]) < 5 * np.diff(sound).std()  # it can play in a loop
 
 
-def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path) -> None:
-    protocol = load_protocol(written(tmp_path, YES))
+@pytest.mark.parametrize(("scale", "held"), [("linear", "81 %"), ("log", "91 % to 99 %")])
+def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path, scale: str, held: str) -> None:
+    text = YES if scale == "linear" else YES.replace("[stimulus]", '[stimulus]\nscale = "log"')
+    protocol = load_protocol(written(tmp_path, text))
     with Session(protocol, tmp_path, "P01") as session:
         header = session.header
     found = write_report(protocol, {"P01": [header]}, tmp_path / "report")
     assert found.people[0].reason.startswith("0 answers are too few")
-    assert "| P01 | 0 | 0 answers" in (tmp_path / "report" / "report.md").read_text()
+    report = (tmp_path / "report" / "report.md").read_text()
+    assert "| P01 | 0 | 0 answers" in report and f"is, {held}" in report
