@@ -148,7 +148,8 @@ def _no_room(request: NumberedRequest) -> Reply:
 
 
 def _refused(request: NumberedRequest, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
-    if hub.holder != viewer.number:
+    everyone = isinstance(request, Pause) and session.sitting  # who looks on at a participant's session
+    if hub.holder != viewer.number and not everyone:
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:
         return Reply(id=request.id, ok=False, text="the run has ended")

@@ -12,7 +12,7 @@ import pytest
 from protocols import COMPARES, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
-from punctura.perception import Session, load_protocol, read_session
+from punctura.perception import Session, SessionError, load_protocol, read_session
 from punctura.record import open_recording
 from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
@@ -108,6 +108,8 @@ def test_no_consent_no_session(tmp_path: Path) -> None:
         person.answers("no")
         person.reads("Then there is no session.")
     assert not (tmp_path / "out" / "P01.jsonl").exists()
+    with pytest.raises(SessionError, match="has not agreed"):
+        Session(load_protocol(tmp_path / "mine.toml"), tmp_path / "out", "P01")
 
 
 def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -174,7 +176,8 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
             person.reads("repeated: the device")
         person.answers("Go on")
         person.reads("push")
-        assert person.page.ask(do="pause")["ok"]
+        with StudioClient(server.address.url) as onlooker:
+            assert onlooker.ask(do="pause")["ok"] and not onlooker.ask(do="trip_fault")["ok"]
         person.reads("repeated: the force was turned off")
     assert server.session.failure is None
 
