@@ -21,6 +21,7 @@ DIGITS = 1e-9  # of the range of the values: differences as small are of the com
 OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
 FEW = 0.05  # of the samples: so many spikes may be left out
 AIR, ALIKE = 40, 0.7  # samples; correlation of neighbouring samples
+SMEARED, CHANCE = 0.25, 3.3  # least correlation of changes that a filter makes; standard deviations of chance
 FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
 
 
@@ -104,7 +105,11 @@ def gaps(trace: Trace) -> Iterator[Finding]:
 
 
 def smoothed(air: Array) -> Iterator[Finding]:
-    """Noise of the force in air (n,), N, that is alike in a few neighbouring samples: a filter smears pops as well."""
+    """Noise of the force in air (n,), N, that is alike in a few neighbouring samples: a filter smears pops as well.
+
+    Slow noise of a sensor is alike, too, but its changes from sample to sample are not. A filter makes changes that
+    are like the next ones, or, a mean of k samples, the reverse of those k samples before.
+    """
     where = np.linspace(-1, 1, len(air))
     noise = air - np.mean(air) - where * float(where @ air) / max(float(where @ where), 1e-300)  # without a drift
     if len(air) < AIR or not np.ptp(air) > 0:
@@ -112,7 +117,12 @@ def smoothed(air: Array) -> Iterator[Finding]:
     alike = np.correlate(noise, noise, "full")[len(noise) - 1 :] / float(noise @ noise)
     apart = int(np.argmax(alike <= 0))
     hum = float(alike[apart : len(alike) // 2].max(initial=0.0)) > 0.5
-    if alike[1] > ALIKE and 0 < apart <= len(air) // 6 and not hum:
+    if alike[1] <= ALIKE or not 0 < apart <= len(air) // 6 or hum:
+        return
+    change = np.diff(noise)
+    steps = np.correlate(change, change, "full")[len(change) - 1 :] / float(change @ change)
+    chance = max(SMEARED, CHANCE / np.sqrt(len(change)))
+    if steps[1] > chance or steps[2 : len(air) // 6 + 2].min() < -chance:
         text = f"the noise in air is alike in some {apart} neighbouring samples, as if the force was smoothed or filled"
         advice = "pops are then smeared as well, and look like other walls. Export it as it is measured"
         yield Finding("smoothed", f"{text} in: {advice}")

@@ -13,7 +13,9 @@ from punctura.record import open_recording
 from punctura.record.save_as import export_pieces
 from punctura.simulation import Strokes
 from punctura.trace import TraceError, read_trace
+from punctura.trace.samples import smoothed
 from recorded import recorded
+from scipy.signal import lfilter
 from traces import force_of, trace
 
 
@@ -159,6 +161,16 @@ def test_each_defect_is_named_and_no_other(tmp_path, kind):
     assert kinds(read) == {kind}
     if kind in ("reversed_sign", "offset"):
         assert read.force == pytest.approx(made.force, abs=5e-3)
+
+
+@pytest.mark.parametrize("length", [5, 20, None], ids=["5 samples", "20 samples", "random walk"])
+def test_slow_noise_of_a_sensor_is_not_called_smoothed(length):
+    keeps = 1.0 if length is None else np.exp(-1 / length)
+    white = np.random.default_rng(1).normal(size=(20, 300))
+    for noise in lfilter([1.0], [1.0, -keeps], white, axis=1):
+        assert not list(smoothed(noise[100:]))
+    averaged = np.apply_along_axis(np.convolve, 1, white, np.ones(10) / 10, "valid")
+    assert sum(bool(list(smoothed(noise))) for noise in averaged) > 15
 
 
 @pytest.mark.parametrize("changed", [lambda force: np.round(force, 1), lambda force: np.repeat(force[::10], 10)])
