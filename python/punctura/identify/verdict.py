@@ -74,7 +74,11 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
     if air.allows(*fit.noise.most_likely()):
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N. "
-            + ("The fit takes it into account. " if whitened else "The intervals are then too narrow. ")
+            + (
+                "The fit takes it into account, but the interval of a surface is too narrow. "
+                if whitened
+                else "The intervals are then too narrow. "
+            )
             + "If the model is right (see punctura rivals), this is a drift of the sensor: let it warm up, record a "
             "second before contact, and repeat the insertion."
         )
