@@ -18,8 +18,9 @@ ZERO_NOISES, ZERO_SHARE = 8.0, 0.01  # standard deviations in air and share of t
 SHORT, STEEP = 0.005, 95  # share of the range of the depths, that is a way; per cent of the ways are less steep
 RELAXED = 0.05  # of the peak: a force that falls by more in a rest relaxes
 FEWEST, MOST = 5, 100  # samples at one end: fewer tell nothing, more are thinned
-TELLING = 40  # samples of air, by which a noise that is as large as an error of a model in tissue is excluded
+TELLING = 40  # samples of air, by which a noise that is as large as an error of a model in tissue may be excluded
 UNLIKELY = 16.3  # -2 ln of a likelihood ratio, beyond which a noise is excluded: chi-squared of 3, 1 in 1000
+SHOWN = -2.0  # the same, below which the air shows a noise: more is "not worth a mention" (Kass and Raftery 1995)
 
 
 class AirNoise:
@@ -62,12 +63,19 @@ class AirNoise:
         return fell > max(RELAXED * self._peak, ZERO_NOISES * self._noise, 3 * self._change) + self._steepest * moved
 
     def allows(self, mixture: Mixture, variance: float) -> bool:
-        """Whether this noise, of this variance, N^2, is likely enough in air."""
+        """Whether the air does not exclude this noise, of this variance, N^2; short air excludes little."""
         return len(self._force) < 2 * FEWEST or self._against(mixture, variance) <= UNLIKELY
 
-    def supports(self, mixture: Mixture, variance: float) -> bool:
-        """The same, and there is air enough to tell it from a model that is wrong in tissue."""
-        return len(self._force) >= TELLING and self._against(mixture, variance) <= UNLIKELY
+    def tested(self, mixture: Mixture, variance: float) -> bool:
+        """Whether there are TELLING samples of air, and they do not exclude this noise: it need not be there."""
+        return len(self._force) >= TELLING and self.allows(mixture, variance)
+
+    def shows(self, mixture: Mixture, variance: float) -> bool:
+        """Whether this noise, of this variance, N^2, is clearly more likely in air than white noise.
+
+        What is slow in tissue alone may as well be a model that is wrong there.
+        """
+        return len(self._force) >= 2 * FEWEST and self._against(mixture, variance) < SHOWN
 
     def _against(self, mixture: Mixture, variance: float) -> float:
         """-2 ln of the likelihood of this noise in air over that of the most likely white noise."""

@@ -97,16 +97,16 @@ class Rule:
     def _may_be_slow_noise(self, new: Candidate, old: Candidate) -> bool:
         """Whether what `new` adds may be slow noise of the sensor.
 
-        It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as the air
-        has. If `old` leaves such noise, the evidence must be STRONG: a wall that never pops is like a slow change. A
-        relaxation looks like a drift, so there it is as much as the air allows.
+        It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as air of
+        enough samples does not exclude. If `old` leaves such noise, the evidence must be STRONG: a wall that never pops
+        is like a slow change. A relaxation looks like a drift, so there it is as much as the air allows.
         """
         more = set(new.model.names) - set(old.model.names)
         relaxing = any(name.startswith(RELAXATION) for name in more)
-        noise = self.air.allows if relaxing else self.air.supports
+        noise = self.air.allows if relaxing else self.air.tested
         left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
         left = old.fit.noise.most_likely()
-        needed = STRONG if left[0].share > 0 and self.air.supports(*left) else EVIDENCE
+        needed = STRONG if left[0].share > 0 and self.air.tested(*left) else EVIDENCE
         return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= needed
 
     def held_out_error(self, one: Candidate) -> float | None:

@@ -95,7 +95,7 @@ class Explained:
 def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | None = None) -> Explained:
     """Compares the residuals of a fit of all samples with the noise.
 
-    air_noise: of the same samples. Slow noise that it supports may be in tissue, too.
+    air_noise: of the same samples. Slow noise that it shows may be in tissue, too.
     """
     residuals = trace.force - fit.misfit.forces(fit.parameters)
     air = in_air(trace, segments, fit)
@@ -103,7 +103,7 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)
     peak = float(np.max(np.abs(trace.force)))
     slow = 0.0
-    if air_noise is not None and air_noise.supports(*fit.noise.most_likely()):
+    if air_noise is not None and air_noise.shows(*fit.noise.most_likely()):
         slow = fit.noise.slow_and_white()[0]
     blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)), slow)
     signs = residuals[residuals != 0] > 0

@@ -126,6 +126,17 @@ def test_slow_noise_that_air_shows_is_no_misfit():
     assert doubted(replace(made, force=made.force + slow)).explained.ok
 
 
+def test_a_model_that_is_wrong_is_not_called_explained_by_a_noise_that_short_air_does_not_exclude():
+    for seed in (0, 7):
+        made = changed(lambda depth, force, inward: force * (1 + 0.15 * np.sin(2 * np.pi * depth / 6e-3)), seed=seed)
+        whole = segment(made)
+        short = made[whole.contact - 60 : whole.exit - 5]
+        air = AirNoise(short, segment(short))
+        found = fitted(short)
+        assert air.allows(*found.noise.most_likely()) and not air.shows(*found.noise.most_likely())
+        assert not doubts(short, segment(short), found, (), air).explained.ok
+
+
 def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless():
     """The fit is told to leave nothing: as if walls more had explained the asymmetric way out."""
     made = changed(pulled(0.5))
