@@ -9,18 +9,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from protocols import COMPARES, YES, written
+from protocols import COMPARES, RIGHT, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import Session, SessionError, load_protocol, read_session
 from punctura.record import open_recording
 from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
-from punctura.studio.loaded import from_name
+from punctura.studio.loaded import Loaded, from_name
 from punctura.studio.run import Run, Settings
 from punctura.studio.serve import StudioServer
 from punctura.studio.sitting import PerceptionSitting
-from waiting import LATE_ALLOWED
+from waiting import LATE_ALLOWED, wait_until
 
 SCALED = '[values]\n"display.force_scale" = 0.8\n'
 
@@ -110,6 +110,35 @@ def test_no_consent_no_session(tmp_path: Path) -> None:
     assert not (tmp_path / "out" / "P01.jsonl").exists()
     with pytest.raises(SessionError, match="has not agreed"):
         Session(load_protocol(tmp_path / "mine.toml"), tmp_path / "out", "P01")
+
+
+def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with sat(tmp_path, RIGHT.replace("total = 120", "total = 120\npractice = 2")) as (person, server):
+        person.reads("The session begins.")
+        edit = server.session.edit
+
+        def inside(loaded: Loaded) -> None:
+            monkeypatch.undo()
+            skin, run = loaded.scene.membranes[0], server.session.run
+            server.session.bench.simulated_device.move_to(np.add(skin.point, 0.001 * np.array(skin.inward_normal)))
+            wait_until(lambda: run.loop.latest().depth[-1, 0] > 0)
+            edit(loaded)
+
+        monkeypatch.setattr(server.session, "edit", inside)
+        person.answers("Go on")
+        person.goes_through("first interval")
+        person.goes_through("second interval")
+        person.reads("repeated: the needle was in the tissue before the interval began")
+        person.answers("Go on")
+        for wrong, remark in ((False, "Right. "), (True, "That was another one. ")):
+            person.goes_through("first interval")
+            person.goes_through("second interval")
+            person.reads("Which one fell more?")
+            right = server.session.sitting._trial.position
+            person.answers(person.now["answers"][right ^ wrong]["name"])
+            person.reads(remark)
 
 
 def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
