@@ -75,7 +75,8 @@ def saved(folder: Path) -> list[dict]:
 
 
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
-    text = 'consent = "I agree."\nnoise = true\n' + COMPARES
+    far = COMPARES.replace("[0.2, 0.3, 0.36, 0.46, 0.52, 0.62]", "[0.1, 0.12, 0.14, 0.78, 0.8, 0.82]")
+    text = 'consent = "I agree."\nnoise = true\n' + far  # on a busy computer a slow hand changes the drop a little
     with sat(tmp_path, text) as (person, _):
         person.reads("I agree. Do you agree?")
         assert person.page.get("/api/noise.wav")[1][:4] == b"RIFF"
@@ -96,7 +97,7 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
     levels[first["position"]] = first["level"]
     assert recording.info.scene.membranes[0].membrane.precompression == levels[0]  # the second one came by an exchange
     more, less = (0, 1) if levels[0] > levels[1] else (1, 0)
-    assert first["felt"][more]["drop"] > first["felt"][less]["drop"] + 0.01
+    assert first["felt"][more]["drop"] > first["felt"][less]["drop"] + 0.05
     assert all(felt["scale"] == 0.8 and felt["pops"] == 1 for felt in first["felt"])
     with sat(tmp_path, text) as (person, _):
         person.reads("1 of 120 trials are done.")
