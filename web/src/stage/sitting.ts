@@ -1,3 +1,4 @@
+import { takeControl } from "../controls/control_line.ts";
 import { element, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { pageOf } from "../state/page.ts";
@@ -11,13 +12,20 @@ export const sitting: Panel = (root, app) => {
   const typed = element("input", { inputmode: "decimal", "aria-label": "A number above 0", autocomplete: "off" });
   const off = (): void => void app.ask({ do: "pause" });
   const stop = element("button", { type: "button", class: "sitting-stop", onclick: off }, "Force off (Esc)");
-  const box = element("section", { class: "sitting-box", "aria-label": "Session", hidden: true }, typed, answers, stop);
-  root.append(box);
   const sound = maskingNoise(app);
+  const box = element(
+    "section",
+    { class: "sitting-box", "aria-label": "Session", hidden: true },
+    typed,
+    answers,
+    sound.missing,
+    takeControl(app),
+    stop,
+  );
+  root.append(box);
   const answer = (name: string): void => {
     const now = app.sitting.value;
     if (!now) return;
-    if (now.noise) sound();
     void app.ask({ do: "respond", question: now.question, answer: name });
   };
   app.sitting.watch((now) => {
@@ -25,6 +33,7 @@ export const sitting: Panel = (root, app) => {
     classList.toggle("sitting", now !== null);
     classList.toggle("covered", now?.covered ?? false);
     box.hidden = !now;
+    sound.show();
     if (!now) return;
     pageOf(app).value = "stage";
     const buttons = now.answers.map(({ name, key }) =>
@@ -36,6 +45,7 @@ export const sitting: Panel = (root, app) => {
     const next = now.any_number ? typed : root.querySelector<HTMLElement>('[role="application"]');
     next?.focus({ preventScroll: true });
   });
+  for (const gesture of ["keydown", "click"]) document.addEventListener(gesture, sound.begin, { capture: true });
   // Before the keys of the view, of the stage and of the bench.
   document.addEventListener("keydown", (event) => take(event), { capture: true });
   const take = (event: KeyboardEvent): void => {
@@ -56,18 +66,36 @@ export const sitting: Panel = (root, app) => {
   };
 };
 
-/** Begins it once; browsers block sound that no key and no click began. */
-function maskingNoise(app: App): () => void {
-  let begun = false;
-  return () => {
-    if (begun) return;
-    begun = true;
-    void play(app).catch((error: unknown) => app.notify(`No masking noise: ${error}`));
+/** Browsers block sound that no key and no click began. An answer by the device's buttons is neither. */
+function maskingNoise(app: App): { begin: () => void; show: () => void; missing: HTMLElement } {
+  const missing = element("p", { role: "status", hidden: true }, "Press a key for the sound.");
+  let context: AudioContext | null = null;
+  let loads = false;
+  let plays = false;
+  const show = (): void => {
+    missing.hidden = !app.sitting.value?.noise || (plays && context?.state === "running");
   };
+  const begin = (): void => {
+    if (!app.sitting.value?.noise) return;
+    context ??= new AudioContext();
+    context.onstatechange = show;
+    void context.resume();
+    if (loads || plays) return;
+    loads = true;
+    play(app, context)
+      .then(() => {
+        plays = true;
+      })
+      .catch((error: unknown) => app.notify(`No masking noise: ${error}`)) // the next key tries again
+      .finally(() => {
+        loads = false;
+        show();
+      });
+  };
+  return { begin, show, missing };
 }
 
-async function play(app: App): Promise<void> {
-  const context = new AudioContext();
+async function play(app: App, context: AudioContext): Promise<void> {
   const file = await app.api.get("/api/noise.wav");
   const noise = context.createBufferSource();
   noise.buffer = await context.decodeAudioData(await file.arrayBuffer());
