@@ -15,16 +15,7 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from punctura.studio.hand import Pose
-from punctura.studio.limits import (
-    JOINED_S,
-    LATE_S,
-    MOST_JOINED,
-    MOST_MESSAGES,
-    MOST_ON_WAY,
-    MOST_TICK_BYTES,
-    MOST_VIEWERS,
-    UNREAD_S,
-)
+from punctura.studio.limits import MOST_JOINED, MOST_MESSAGES, MOST_ON_WAY, MOST_TICK_BYTES, MOST_VIEWERS, UNREAD_S
 from punctura.studio.wire.frames import SEVERAL, joined
 from punctura.studio.wire.messages import Control, HandPose, Status
 
@@ -44,7 +35,6 @@ class Waiting:
 
     data: Data
     kind: str
-    since: float  # s
 
 
 class Viewer:
@@ -65,13 +55,12 @@ class Viewer:
 
     def put(self, data: Data, kind: str = "") -> None:
         """kind: of a message."""
-        now = self._clock()
-        if self._waits and now - self._heard >= UNREAD_S:
+        if self._waits and self._clock() - self._heard >= UNREAD_S:
             self.close(UNREAD)
         if self.closed:
             return
         if isinstance(data, bytes):
-            if self._ticks + len(data) > MOST_TICK_BYTES or self._is_late(now):
+            if self._ticks + len(data) > MOST_TICK_BYTES:
                 self._drop_frames()
             self._ticks += len(data)
         else:
@@ -83,18 +72,13 @@ class Viewer:
             if waiting:  # at the end of the queue, a page that reads slowly would never get it
                 waiting.data = data
                 return
-        entry = Waiting(data, kind, now)
+        entry = Waiting(data, kind)
         if kind in SUPERSEDED:
             self._last[kind] = entry
         if kind == "scene":  # what follows belongs to this scene
             self._last.clear()
         self._queue.append(entry)
         self._wake.set()
-
-    def _is_late(self, now: float) -> bool:
-        """Whether a page that answers would be shown what is long past."""
-        oldest = next((entry.since for entry in self._queue if isinstance(entry.data, bytes)), now)
-        return self._answers and now - oldest > LATE_S
 
     def _drop_frames(self) -> None:
         kept = deque(entry for entry in self._queue if isinstance(entry.data, str))
@@ -110,7 +94,7 @@ class Viewer:
             return None
         entry = self._queue.popleft()
         if isinstance(entry.data, bytes):
-            return self._with_the_next(entry.data, entry.since)
+            return self._with_the_next(entry.data)
         self._bytes -= len(entry.data)
         if self._last.get(entry.kind) is entry:
             del self._last[entry.kind]
@@ -132,12 +116,12 @@ class Viewer:
         """Whether the page must answer before it gets more ticks."""
         return self._answers and self._on_way >= MOST_ON_WAY
 
-    def _with_the_next(self, frame: bytes, since: float) -> bytes:
+    def _with_the_next(self, frame: bytes) -> bytes:
         """A message with this frame, and for a page that answers with those that wait behind it."""
         frames, size = [frame], len(frame)
         while self._answers and self._queue:
             data = self._queue[0].data
-            if isinstance(data, str) or size + len(data) > MOST_JOINED or self._queue[0].since - since > JOINED_S:
+            if isinstance(data, str) or size + len(data) > MOST_JOINED:
                 break
             frames.append(data)
             size += len(data)

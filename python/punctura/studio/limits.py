@@ -36,8 +36,6 @@ FILES_WANTED = 1024  # open files; no more, since a maker's driver that calls se
 FILES_KEPT = 192  # of these, for the device, recordings, exports and what Python and its libraries open
 
 # Times, seconds.
-JOINED_S = 0.25  # of ticks in one message to a late page
-LATE_S = 1.0  # that ticks wait for a page that says when it has taken some; then all are dropped, which leaves one gap
 STRANGER_S = 10.0  # for a whole request with the token to arrive; then the connection is ended
 IDLE_S = 15.0  # between two requests of a connection that has shown the token
 CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it

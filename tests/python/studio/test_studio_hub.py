@@ -135,29 +135,6 @@ def test_a_page_that_answers_gets_every_tick_soon_however_slowly_it_takes_messag
     run(test)
 
 
-def test_a_page_that_is_slower_than_the_ticks_shows_what_is_new():
-    """60 frames a second come, and the page takes 40. At first it stops for 0.9 s, and loses nothing."""
-
-    async def test():
-        now, done, got, way = 0.0, 0.9, [], []
-        viewer = Viewer(1, lambda: now)
-        viewer.took()
-        for turn in range(1800):
-            now = turn / 60
-            viewer.put(struct.pack("<I", turn))
-            while viewer.ready:
-                way.append(frames_of(await viewer.take()))
-                done = max(done, now + (len(way[0]) / 40 if turn > 300 and len(way) == 1 else 0))
-            if way and now >= done:
-                got += way.pop(0)
-                viewer.took()
-                done = now + (len(way[0]) / 40 if turn > 300 and way else 0)
-                assert turn - got[-1] <= 60 * 2.5
-        assert got[:300] == list(range(300)) and got == sorted(got) and 300 < viewer.dropped < 900
-
-    asyncio.run(test())
-
-
 def frames_of(message):
     """The numbers in the frames of a message."""
     return [struct.unpack("<I", frame)[0] for frame in split(message)]
