@@ -14,6 +14,7 @@ from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import Session, SessionError, load_protocol, read_session
 from punctura.record import open_recording
+from punctura.record.header import from_text
 from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
 from punctura.studio.loaded import Loaded, from_name
@@ -75,8 +76,7 @@ def saved(folder: Path) -> list[dict]:
 
 
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
-    far = COMPARES.replace("[0.2, 0.3, 0.36, 0.46, 0.52, 0.62]", "[0.1, 0.12, 0.14, 0.78, 0.8, 0.82]")
-    text = 'consent = "I agree."\nnoise = true\n' + far  # on a busy computer a slow hand changes the drop a little
+    text = 'consent = "I agree."\nnoise = true\n' + COMPARES
     with sat(tmp_path, text) as (person, _):
         person.reads("I agree. Do you agree?")
         assert person.page.get("/api/noise.wav")[1][:4] == b"RIFF"
@@ -95,9 +95,10 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
     recording = open_recording(tmp_path / "out" / first["recordings"][0])
     levels = [0.41, 0.41]
     levels[first["position"]] = first["level"]
-    assert recording.info.scene.membranes[0].membrane.precompression == levels[0]  # the second one came by an exchange
-    more, less = (0, 1) if levels[0] > levels[1] else (1, 0)
-    assert first["felt"][more]["drop"] > first["felt"][less]["drop"] + 0.05
+    exchanged = recording.table()["new_scenes"].drop_null().to_pylist()[-1][-1]
+    felt_scenes = [recording.info.scene, from_text(exchanged, tmp_path)]
+    assert [one.membranes[0].membrane.precompression for one in felt_scenes] == levels
+    assert all(felt["drop"] > 0.1 for felt in first["felt"])  # how much depends on the hand
     assert all(felt["scale"] == 0.8 and felt["pops"] == 1 for felt in first["felt"])
     with sat(tmp_path, text) as (person, _):
         person.reads("1 of 120 trials are done.")
