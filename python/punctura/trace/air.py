@@ -36,6 +36,11 @@ def baseline(force: Array) -> float:
     return float(np.median(force[: _first(force)]))
 
 
+def above_air(force: Array) -> Array:
+    """The force (n,) less its zero before contact, N, averaged over half a per cent of the samples."""
+    return smooth(force, max(1, len(force) // 200) | 1) - baseline(force)
+
+
 def calm_noise(force: Array) -> float:
     """Noise of the force, N: from sample to sample, and over the first samples if that is more."""
     return max(noise_of(force), spread(force[: _first(force)]))
@@ -73,7 +78,7 @@ def exit_sample(depth: Array, force: Array) -> int | None:
 
 def leaves_air(force: Array, greatest: float) -> bool:
     """Whether a force (n,), N, leaves the air; greatest: that of the whole trace, N."""
-    away = np.abs(smooth(_without_spikes(force), max(1, len(force) // 200) | 1) - baseline(force))
+    away = np.abs(above_air(_without_spikes(force)))
     return bool(away.max() > max(NOISES * calm_noise(force), SHARE * greatest))
 
 
@@ -109,17 +114,17 @@ def _rises(depth: Array, force: Array, contact: int, top: int) -> bool:
     """
     if float(np.ptp(depth[: contact + 1])) <= NOISES * noise_of(depth) or top - contact < FEWEST:
         return False
-    (before, error), (behind, _) = (_slope(depth[p], force[p]) for p in (slice(contact + 1), slice(contact, top)))
+    (before, error), (behind, _) = (slope(depth[p], force[p]) for p in (slice(contact + 1), slice(contact, top)))
     doubt = SURE * error if contact < _first(force) else 0.0
     return bool(before * np.sign(behind) + doubt > STEEP * abs(behind))
 
 
-def _slope(depth: Array, force: Array) -> tuple[float, float]:
-    """Of the force over the depth, N/m, and its standard error."""
-    where, height = depth - depth.mean(), force - force.mean()
-    square = max(float(where @ where), 1e-300)
-    slope = float(where @ height) / square
-    return slope, float(np.std(height - slope * where)) / float(np.sqrt(square))
+def slope(x: Array, y: Array) -> tuple[float, float]:
+    """Of y over x (n,), by least squares, and its standard error if the noise is white."""
+    x, y = x - x.mean(), y - y.mean()
+    square = max(float(x @ x), 1e-300)
+    rise = float(x @ y) / square
+    return rise, float(np.std(y - rise * x)) / float(np.sqrt(square))
 
 
 def _without_spikes(force: Array) -> Array:
@@ -132,7 +137,7 @@ def _departure(force: Array, change: float = 0.0, noise: float = 0.0, share: flo
 
     change: of the zero over the trace, N, which is no departure. share: of the greatest force, that is beyond noise.
     """
-    away = np.abs(smooth(force, max(1, len(force) // 200) | 1) - baseline(force))
+    away = np.abs(above_air(force))
     height, noise = float(away.max()), max(noise, calm_noise(force))
     slow = abs(change) * np.linspace(0, 1, len(force))
     risen = away > max(NOISES * noise, share * height) + slow

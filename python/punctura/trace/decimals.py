@@ -22,7 +22,8 @@ _GROUPED = {
     ".": re.compile(_THOUSANDS % f"(,|{_BETWEEN})" + r"(\.\d*)?\s*"),
     ",": re.compile(_THOUSANDS % f"(\\.|{_BETWEEN})" + r"(,\d*)?\s*"),
 }
-_MARKS = {mark: re.compile(rf"[{other}]|{_BETWEEN}") for mark, other in ((".", ","), (",", "."))}
+_OTHER: dict[str, Decimal] = {".": ",", ",": "."}
+_MARKS = {mark: re.compile(rf"[{other}]|{_BETWEEN}") for mark, other in _OTHER.items()}
 
 
 class DoubtfulNumber(ValueError):
@@ -49,7 +50,7 @@ def decimal_in(columns: Iterable[Iterable[Any]]) -> Decimal:
             and not next(iter(shown))[1]
             and any(re.fullmatch(r"[+-]?[1-9]\d\d", text) for text in texts)
         ):
-            shown = {("," if mark == "." else ".", True) for mark, _ in shown}
+            shown = {(_OTHER[mark], True) for mark, _ in shown}
         seen |= shown
     return "," if (",", True) in seen or ((",", False) in seen and (".", True) not in seen) else "."
 
@@ -58,7 +59,7 @@ def _shown(cell: str) -> tuple[str, bool]:
     """The decimal mark that a number with marks has, and whether that is sure."""
     marks = re.findall("[.,]", cell)
     if marks.count(marks[-1]) > 1:  # between thousands
-        return "," if marks[-1] == "." else ".", True
+        return _OTHER[marks[-1]], True
     return marks[-1], len(marks) > 1 or not re.fullmatch(r"[+-]?[1-9]\d{0,2}[.,]\d{3}", cell)
 
 

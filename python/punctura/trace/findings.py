@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import baseline, smooth
+from punctura.trace.air import above_air, baseline, slope
 from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, without_spikes
 from punctura.trace.segment import Segments, segment, way_to_tissue
 from punctura.trace.trace import Finding, Trace
@@ -82,8 +82,7 @@ def _only_withdrawn(force: Array) -> bool:
 
 def _pushed(force: Array) -> bool:
     """Whether the force of an insertion (n,), N, is that of the tissue on the needle: negative."""
-    zero = baseline(force)
-    calm = smooth(force - zero, max(1, len(force) // 200) | 1)
+    calm = above_air(force)
     return bool(-calm.min() > 2 * calm.max())
 
 
@@ -114,11 +113,9 @@ def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
             yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
         return  # the zero is known at both ends
     if len(before) >= 30:
-        where = np.linspace(-1, 1, len(before))
-        slope = float(where @ (before - before.mean()) / (where @ where))
-        error = float(np.std(before - before.mean() - slope * where) / np.sqrt(where @ where))
-        over_all = slope * 2 * len(trace) / len(before)
-        if abs(slope) > 6 * error and abs(over_all) > 3 * _SMALL * height:
+        rise, error = slope(np.linspace(-1, 1, len(before)), before)
+        over_all = rise * 2 * len(trace) / len(before)
+        if abs(rise) > 6 * error and abs(over_all) > 3 * _SMALL * height:
             text = f"the force drifts before contact, by {over_all:+.3g} N if it goes on so to the end"
             yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
 

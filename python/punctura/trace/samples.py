@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import baseline, smooth
+from punctura.trace.air import baseline, slope, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -110,10 +110,10 @@ def smoothed(air: Array) -> Iterator[Finding]:
     Slow noise of a sensor is alike, too, but its changes from sample to sample are not. A filter makes changes that
     are like the next ones, or, a mean of k samples, the reverse of those k samples before.
     """
-    where = np.linspace(-1, 1, len(air))
-    noise = air - np.mean(air) - where * float(where @ air) / max(float(where @ where), 1e-300)  # without a drift
     if len(air) < AIR or not np.ptp(air) > 0:
         return
+    where = np.linspace(-1, 1, len(air))
+    noise = air - np.mean(air) - where * slope(where, air)[0]  # without a drift
     alike = np.correlate(noise, noise, "full")[len(noise) - 1 :] / float(noise @ noise)
     apart = int(np.argmax(alike <= 0))
     hum = float(alike[apart : len(alike) // 2].max(initial=0.0)) > 0.5
