@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from punctura import Needle
 from punctura.identify.criteria import Candidate, worth_a_fit
-from punctura.identify.fit import Start, unexplained
+from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
 from punctura.identify.moves import GAIN, noise_limit, with_hops
@@ -164,9 +164,7 @@ def _may_be_worth_it(current: Candidate, model: Model, starts: Sequence[Start]) 
     least = fit.sse
     for start in starts:
         free = fit.misfit.free(model.names, start.parameters)
-        u = free.coordinates(start.parameters)
-        left = unexplained(fit.misfit.residuals(free, u), fit.misfit.jacobian(free, u))
-        least = min(least, float(left @ left))
+        least = min(least, squares_beyond(fit.misfit, free, free.coordinates(start.parameters)))
     return worth_a_fit(fit, least, len(model.names) - len(fit.u))
 
 

@@ -179,10 +179,12 @@ class Fit:
         return NoiseOfFit(self.residuals, self.jacobian)
 
 
-def unexplained(residuals: Array, columns: Array) -> Array:
-    """What a linear model with these columns (n, p) leaves of the residuals (n,)."""
+def squares_beyond(misfit: Misfit, free: Free, u: Array) -> float:
+    """The squares, N^2, that the model leaves if it is linear about u (p,)."""
+    residuals, columns = misfit.residuals(free, u), misfit.jacobian(free, u)
     known = columns / np.maximum(np.sqrt(np.sum(columns**2, axis=0)), 1e-300)
-    return np.asarray(residuals - known @ np.linalg.lstsq(known, residuals, rcond=1e-10)[0])
+    left = residuals - known @ np.linalg.lstsq(known, residuals, rcond=1e-10)[0]
+    return float(left @ left)
 
 
 def in_order(found: Fit) -> Fit:

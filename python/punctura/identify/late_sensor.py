@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.criteria import STRONG, Candidate, worth_a_fit
-from punctura.identify.fit import Start, unexplained
+from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import LATE, LATEST, Free
 from punctura.identify.rig import Rig
@@ -94,6 +94,5 @@ def _may_be_late(current: Candidate, names: Sequence[str]) -> bool:
     for name, (late, stiffer) in product(names, BEGINNINGS):
         free, u = _late(current, [name], late)
         u[free.names.index("coupling_stiffness")] += np.log(stiffer)
-        left = unexplained(fit.misfit.residuals(free, u), fit.misfit.jacobian(free, u))
-        least = min(least, float(left @ left))
+        least = min(least, squares_beyond(fit.misfit, free, u))
     return worth_a_fit(fit, least, 1, STRONG)
