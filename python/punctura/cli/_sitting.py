@@ -9,7 +9,7 @@ import typer
 
 from punctura._core import DeviceError, Placement
 from punctura.cli._notice import notice
-from punctura.extras import optional
+from punctura.cli._studio import need_studio
 from punctura.live import RunLimits, load_limits, load_placement
 from punctura.perception import Protocol
 from punctura.perception.load import check_device
@@ -21,8 +21,7 @@ def run_sitting(
     port: int, browser: bool,
 ) -> None:  # fmt: skip
     """Raises Ended if a signal ended it, SessionError, StudioError, ConfigurationError."""
-    for package in ("starlette", "uvicorn", "websockets"):
-        optional(package, "studio", "punctura perception run")
+    need_studio("punctura perception run")
     from punctura.studio import serve
     from punctura.studio.loaded import from_name
     from punctura.studio.run import Settings

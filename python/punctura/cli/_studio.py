@@ -13,6 +13,12 @@ from punctura.extras import optional
 from punctura.process.dropping_stream import DroppingStream
 
 
+def need_studio(user: str) -> None:
+    """Raises MissingPackageError. user: the part of Punctura that shows the studio's page."""
+    for package in ("pyarrow", "starlette", "uvicorn", "websockets"):
+        optional(package, "studio", user)
+
+
 def run_page(
     wishes: Wishes, port: int, browser: bool, recordings: Path | None, page: Path | None, own: Sequence[str] = ()
 ) -> None:
@@ -20,8 +26,7 @@ def run_page(
 
     Raises DeviceError, Ended if a signal ended the run, StudioError (its text says what to do), ConfigurationError.
     """
-    for package in ("pyarrow", "starlette", "uvicorn", "websockets"):
-        optional(package, "studio", "the page of punctura run")
+    need_studio("the page of punctura run")
     # Imported here, because importing the server takes long.
     from punctura.exercise import load_exercise
     from punctura.studio import serve
