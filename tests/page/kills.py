@@ -47,10 +47,10 @@ def main(kills: int = 50, seed: int = 1) -> None:
                 page.locator(".stage-sentence", has_text=BEGUN).wait_for()
                 killer = threading.Timer(draw.uniform(0.0, LONGEST_S), studio.kill)
                 killer.start()
-                told = [act(page)]
+                answers = [act(page)]
                 while killer.is_alive():
-                    told.append(act(page))
-                assert len(on_disk(folder)) >= max(told)
+                    answers.append(act(page))
+                assert len(on_disk(folder)) >= max(answers)
                 studio = sitting(folder, studio.port)
             while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
                 act(page)

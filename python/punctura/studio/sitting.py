@@ -247,8 +247,8 @@ class PerceptionSitting:
     ) -> None:
         """answers: the key of each. more: fields of the message."""
         keys = [AnswerKey(name=name, key=key) for name, key in (answers or {}).items()]
-        said = {"question": self._shown.question + 1, "sentence": self._remark + sentence, "answers": keys}
-        self._shown = self._shown.model_copy(update={"covered": True, "any_number": False, **said, **more})
+        new = {"question": self._shown.question + 1, "sentence": self._remark + sentence, "answers": keys}
+        self._shown = self._shown.model_copy(update={"covered": True, "any_number": False, **new, **more})
         self._then = then
         if sentence != WAIT:
             self._remark = ""

@@ -72,10 +72,10 @@ def column_names(above: Sequence[Row], width: int, least: int | None = None) -> 
     least: so many must be there, where the last columns are empty. Without names, the columns have their numbers, from
     1.
     """
-    told = list(above)
-    while told and (_is_label(told[-1]) or not any(str(cell or "").strip(" -") for cell in told[-1])):
-        told.pop()
-    fitting = [_texts(row, width, least or width) for row in told[-2:]]
+    rows = list(above)
+    while rows and (_is_label(rows[-1]) or not any(str(cell or "").strip(" -") for cell in rows[-1])):
+        rows.pop()
+    fitting = [_texts(row, width, least or width) for row in rows[-2:]]
     names = next(iter(fitting[-1:]), None)
     if names is not None and len(fitting) == 2 and (other := fitting[0]) is not None:
         if _are_units(names) or _are_units(other):

@@ -78,9 +78,9 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
         wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
         raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
     empty = min(next((i for i, cell in enumerate(row[::-1]) if cell), width) for row in last)  # columns at the end
-    told = [(line, _words(line.lstrip("#% "), delimiter, width)) for line, _ in above_all[:first]]
-    told = [(line, words) for line, words in told if not (is_comment(line) and len(words) < width)]  # without remarks
-    names = column_names([words for _, words in told], width, width - empty)
+    headings = [(line, _words(line.lstrip("#% "), delimiter, width)) for line, _ in above_all[:first]]
+    titles = [words for line, words in headings if not (is_comment(line) and len(words) < width)]  # without remarks
+    names = column_names(titles, width, width - empty)
     rows = _Rows(pieces, delimiter, skip=sum(count for line, count in above_all[:first] if not is_comment(line)))
     cells, left_out = _parsed(path, rows, names, delimiter)
     table = Table()
