@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import platform
+import subprocess
 import sys
 from itertools import pairwise
 from pathlib import Path
@@ -292,3 +294,16 @@ def test_whatever_does_not_fit_the_table_is_found(check, tmp_path, old, new, fin
 
 def test_a_missing_table_is_found(check, tmp_path):
     assert found_by(check("equations"), plant(tmp_path, **GOOD)) == ["docs/equations.md:1: is missing"]
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="AVX is an instruction set of x86-64")
+def test_code_that_an_object_of_avx2_shares_is_a_finding_only_if_it_has_an_instruction_of_avx2(tmp_path):
+    object_file = tmp_path / "runtime/CMakeFiles/punctura_batch.dir/punctura_runtime/batch/line_avx2.cpp.o"
+    object_file.parent.mkdir(parents=True)
+    code = """template <class T> [[gnu::noinline]] T sum(const T* v) { return v[0] + v[1]; }
+    double sum_avx2(const double* v) { return sum(v); }"""
+    for options, status in ([], 0), (["-mavx2"], 1):
+        compiler = ["c++", "-O2", *options, "-xc++", "-", "-c", "-o", object_file]
+        subprocess.run(compiler, input=code, text=True, check=True)
+        done = subprocess.run([TOOLS / "check_isa.sh", tmp_path], capture_output=True, text=True)
+        assert (done.returncode, "double sum<double>" in done.stdout) == (status, bool(status))
