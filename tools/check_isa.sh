@@ -13,7 +13,8 @@ for object in "$1"/runtime/CMakeFiles/punctura_batch.dir/punctura_runtime/batch/
   bound=$(objdump -d --no-show-raw-insn "$object" | awk '
     NR == FNR { shared[$1]; next }
     /^[0-9a-f]+ </ { name = substr($2, 2, length($2) - 3); next }
-    name in shared && $2 ~ /^(v|k|popcnt|crc32)/ && !seen[name]++ { print name }' <(grep -vi "$isa" <<<"$code") - | c++filt)
+    name in shared && $2 ~ /^(v|k|popcnt|crc32)/ && !seen[name]++ { print name }' <(grep -vi "$isa" <<<"$code") - |
+    c++filt)
   if [ -n "$bound" ]; then
     echo "$object has code of $isa that other objects can use:"
     echo "$bound"
