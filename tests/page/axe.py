@@ -26,24 +26,21 @@ TARGETS = {"rules": {"target-size": {"enabled": True}}}  # WCAG 2.2; axe-core le
 
 
 def check(page: Page, state: str, part: str = "") -> None:
-    """All rules in light colours at the usual size; elsewhere the rules about layout, about colours, or both.
+    """All rules in light colours at the usual size; elsewhere the rules about layout and colours.
 
-    A part is also checked in dark colours on a tablet, and in light ones on a phone, where parts lie over others. A
-    state of the whole page is checked in both colours at the usual size, on a tablet and on a phone, and in dark ones
-    in a large window. part: a selector of what differs from the states before; empty: the page. At none of the four
-    sizes may the page scroll sideways. The page stays in light colours and at the usual size.
+    A part is also checked in dark colours on a phone, where parts lie over others. A state of the whole page is checked
+    in dark colours in a large window and on a tablet, and in light ones on a phone. part: a selector of what differs
+    from the states before; empty: the page. At none of the sizes may the page scroll sideways. The page stays in light
+    colours and at the usual size.
     """
-    both, whole = LAYOUT + COLOURS, not part
     _none(page, f"{state}, light", TARGETS, part)
     _fits(page, state, USUAL)
-    if whole:
-        _at(page, state, USUAL, "dark", COLOURS)
-    _at(page, state, LARGE, "dark", both if whole else [], part)
-    _at(page, state, TABLET, "dark", both, part)
-    _at(page, state, PHONE, "light", both, part)
-    if whole:
-        _at(page, state, PHONE, "dark", COLOURS)
-        _at(page, state, TABLET, "light", COLOURS)
+    if part:
+        _at(page, state, TABLET, "dark", [], part)
+        _at(page, state, PHONE, "dark", LAYOUT + COLOURS, part)
+    else:
+        for size, colours in ((LARGE, "dark"), (TABLET, "dark"), (PHONE, "light")):
+            _at(page, state, size, colours, LAYOUT + COLOURS)
     page.emulate_media(color_scheme="light")
     page.set_viewport_size({"width": USUAL[0], "height": USUAL[1]})
 

@@ -16,10 +16,16 @@ from chromium import launch
 from person import PATIENCE, opened
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 from studio_process import StudioProcess
+from warm import warm
 
 expect.set_options(timeout=PATIENCE)
-StudioProcess.program = (sys.executable, str(Path(__file__).parent / "seldom.py"))
 os.environ["PUNCTURA_LAB_NICE"] = "0"  # other tests run at the same time; a computation must not wait for them
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _program(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    with warm(tmp_path_factory.mktemp("warm"), "seldom") as StudioProcess.program:
+        yield
 
 
 @pytest.fixture

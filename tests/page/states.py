@@ -112,8 +112,10 @@ def _exercise(page: Page) -> Iterator[State]:
     page.locator(".running").get_by_role("button", name="End").click()
     expect(page.locator(".running")).to_be_hidden()
     expert = card.get_by_role("combobox")
-    expert.focus()  # the list of recordings is read now
-    expect(expert.locator("option")).to_have_count(2)
+    while expert.locator("option").count() < 2:  # with each focus it reads the list, which has the attempt soon
+        expert.blur()
+        expert.focus()
+        page.wait_for_timeout(200)
     expert.select_option(index=1)
     card.get_by_role("button", name="Start").click()
     dialog = page.get_by_role("dialog")
