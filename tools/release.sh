@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes a release in build/release, and checks each part as its user gets it.
 #   tools/release.sh                      all parts: sdist wheel c npm site notes
-#   tools/release.sh wheel npm            only these
+#   tools/release.sh wheel npm            only these, beside those that were made of the same commit
 #   PYTHON="python3.10 python3.11 python3.12" tools/release.sh   a wheel for each; from 3.12 on with the stable ABI
 # The clone must hold what its commit holds. The sdist and SHA256SUMS are always made. Wheels, C library and npm package
 # are built from the sdist, outside of git.
@@ -141,7 +141,7 @@ make_npm() {
 
 make_site() {
   PATH=$path "$root/docs/build"
-  cp -r "$root/build/docs/html" "$work/punctura-site-$version"
+  rm -rf "$work/punctura-site-$version" && cp -r "$root/build/docs/html" "$work/punctura-site-$version"
   pack "punctura-site-$version"
 }
 
@@ -159,7 +159,9 @@ done
 [ $# -eq 0 ] || parts=(sdist "${@/sdist/}")
 unclean() { git -C "$root" status --porcelain; }
 [ -z "$(unclean)" ] || { printf 'Not in the commit, so not for a release:\n%s\n' "$(unclean)" >&2; exit 1; }
-rm -rf "$made" "$work" && mkdir -p "$made" "$work"
+commit=$(git -C "$root" rev-parse HEAD)
+[ "$(cat "$work/commit" 2>/dev/null)" = "$commit" ] || rm -rf "$made" "$work" # otherwise the parts add up
+mkdir -p "$made" "$work" && rm -f "$made/SHA256SUMS" && echo "$commit" >"$work/commit"
 first=${PYTHON:-python3}
 "${first%% *}" -m venv "$work/tools"
 export PATH=$work/tools/bin:$PATH PIP_DISABLE_PIP_VERSION_CHECK=1

@@ -1,4 +1,4 @@
-"""The npm package in a bundler's page, in Chromium: Vite, webpack and esbuild as they are, without a setting.
+"""The npm package in a bundler's page, in Chromium: the newest Vite, webpack and esbuild, without a setting.
 
     python -m pytest integrations/wasm/test_bundlers.py
 
@@ -39,11 +39,11 @@ example().catch((error) => forces.append(String(error)));
 """
 # Bundler: its packages, its command, and the script that a page loads from its folder dist.
 BUNDLERS = {
-    "vite": (["vite@7"], ["vite", "build"], None),
-    "webpack": (["webpack@5", "webpack-cli@6"], ["webpack", "--mode", "production"], "main.js"),
-    "esbuild": (["esbuild@0.25"], ["esbuild", "src/index.js", "--bundle", "--outfile=dist/main.js"], "main.js"),
+    "vite": (["vite"], ["vite", "build"], None),
+    "webpack": (["webpack", "webpack-cli"], ["webpack", "--mode", "production"], "main.js"),
+    "esbuild": (["esbuild"], ["esbuild", "src/index.js", "--bundle", "--outfile=dist/main.js"], "main.js"),
     "esbuild, modules": (
-        ["esbuild@0.25"],
+        ["esbuild"],
         ["esbuild", "src/index.js", "--bundle", "--format=esm", "--outfile=dist/main.js"],
         "main.js",
     ),
