@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import dask
 import distributed
 import pyarrow.parquet as pq
 from punctura.study import Plan, StudyError, load_plan, run_study
@@ -74,6 +75,7 @@ def refused(plan: Plan, out: Path, address: str, words: str) -> bool:
 
 
 def main() -> int:
+    dask.config.set({"distributed.deploy.lost-worker-timeout": "120s"})  # a busy computer starts a worker in 15 to 30 s
     troubles = {"one": lambda of: kill(of, 1), "both": lambda of: kill(of, 2), "replaced": replace_all}
     with tempfile.TemporaryDirectory() as name, socket.create_server(("127.0.0.1", 0)) as silent:
         folder = Path(name)

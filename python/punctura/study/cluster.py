@@ -62,19 +62,24 @@ def on_cluster(address: str, plan: Plan, parts: Sequence[Part]) -> Iterator[tupl
             future.add_done_callback(finished.put)
         alive = monotonic()
         while waiting:
+            table = None
             try:
                 future = finished.get(timeout=_PATIENCE_S)
+                table = _result(distributed, client, address, future)
+                if table is None:  # lost with its worker: another one computes it
+                    future.add_done_callback(finished.put)
             except Empty:
-                if _workers(client, address):
-                    alive = monotonic()
-                elif monotonic() - alive > _WORKERLESS_S:
+                pass
+            if table is not None:
+                yield waiting.pop(future), table
+                future.release()
+            elif not _workers(client, address):
+                if monotonic() - alive > _WORKERLESS_S:
                     raise StudyError(
                         f"--scheduler {address}: all workers are gone, and none came for {_WORKERLESS_S} s. Start "
                         f"some with dask worker. {_KEPT}"
-                    ) from None
+                    )
                 continue
-            yield waiting.pop(future), _result(distributed, client, address, future)
-            future.release()
             alive = monotonic()
 
 
@@ -127,10 +132,13 @@ def check_workers(client: Any, address: str) -> None:
             )
 
 
-def _result(distributed: Any, client: Any, address: str, future: Any) -> pa.Table:
+def _result(distributed: Any, client: Any, address: str, future: Any) -> pa.Table | None:
+    """The table of a chunk; None if it does not come from its worker."""
     try:
-        table: pa.Table = future.result()
+        table: pa.Table = future.result(timeout=_WORKERLESS_S)
         return table
+    except (asyncio.TimeoutError, TimeoutError):
+        return None
     except distributed.KilledWorker as bad:
         raise StudyError(
             f"--scheduler {address}: workers died again and again over one chunk ({bad}). {_KEPT}"

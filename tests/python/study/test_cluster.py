@@ -51,7 +51,7 @@ def test_nothing_is_unpickled_by_another_version() -> None:
 
 def test_a_chunk_that_fails_on_a_later_worker_tells_the_version() -> None:
     class Failed:
-        def result(self) -> None:
+        def result(self, timeout: float) -> None:
             raise AttributeError("module has no attribute '_compute'")
 
     class Distributed:
@@ -72,7 +72,7 @@ class Future:
     def add_done_callback(self, put: Any) -> None:
         put(self)
 
-    def result(self) -> Any:
+    def result(self, timeout: float) -> Any:
         return self.call[0](*self.call[1:])
 
     def release(self) -> None: ...
@@ -82,6 +82,20 @@ class Lost(Future):
     """Never ends: its worker is gone."""
 
     def add_done_callback(self, put: Any) -> None: ...
+
+
+class LostAtTheEnd(Future):
+    """Has its result at once, and its worker is gone before it gives it."""
+
+    puts = 0
+
+    def add_done_callback(self, put: Any) -> None:
+        self.puts += 1
+        if self.puts == 1:
+            put(self)
+
+    def result(self, timeout: float) -> Any:
+        raise TimeoutError
 
 
 class Client(Workers):
@@ -137,11 +151,12 @@ def test_the_plan_goes_with_each_chunk(tmp_path: Path, monkeypatch: pytest.Monke
 @pytest.mark.parametrize(
     ("present", "words"), [(0, r"all workers are gone, and none came"), (-1, "the scheduler no longer answers")]
 )
+@pytest.mark.parametrize("kind", [Lost, LostAtTheEnd])
 def test_a_cluster_that_is_gone_ends_the_study(
-    present: int, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    kind: type[Future], present: int, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with pytest.raises(StudyError, match=rf"tcp://here: {words}.*Finished chunks are kept: give the same command"):
-        on_cluster(tmp_path, monkeypatch, distributed_with(Client(Lost, present)))
+        on_cluster(tmp_path, monkeypatch, distributed_with(Client(kind, present)))
 
 
 def test_what_is_no_scheduler_is_told_within_a_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
