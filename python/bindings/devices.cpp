@@ -1,5 +1,6 @@
 // runtime/backends: lists and opens devices.
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string_view.h>
 
 #include "bindings.hpp"
 #include "punctura_runtime/backends/registry.hpp"
@@ -18,7 +19,7 @@ Object<"list[BackendState]"> enumerated() {
   for (const BackendStatus& status : all) {
     nb::dict d;
     d["backend"] = status.backend;
-    d["state"] = name_of(status.state);
+    d["state"] = word_of(status.state);
     d["detail"] = status.detail;
     d["devices"] = status.devices;
     list.append(d);

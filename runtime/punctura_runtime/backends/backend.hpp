@@ -1,10 +1,12 @@
 // A back-end as the registry sees it: its name, its status, and a function that opens its device.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 
 #include "punctura/device/device.hpp"
+#include "punctura/model/decimal.hpp"
 #include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/status.hpp"
 #include "punctura_runtime/os/os.hpp"
@@ -17,6 +19,11 @@ struct OpenOptions {
   std::string library;              ///< path of the maker's library; empty searches the usual places
   os::RealtimeSettings realtime{};  ///< of the ticking thread, unless a maker's library owns it
 };
+
+/// Throws DeviceError if a rate is not above 0 Hz. what: "the rate of a recording".
+inline void require_rate(double rate, const std::string& what = "the rate") {
+  if (!(rate > 0) || !std::isfinite(rate)) throw DeviceError(what + " must be above 0 Hz, not " + decimal_text(rate));
+}
 
 struct Backend {
   const char* name;

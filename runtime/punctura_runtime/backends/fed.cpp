@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "punctura/model/decimal.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
 
@@ -13,8 +13,7 @@ constexpr double tolerance = 0.05;  // relative error of the rate above which th
 }
 
 FedDevice::FedDevice(DeviceInfo info, bool real_time) : info_(std::move(info)), real_time_(real_time) {
-  if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("the rate of a fed device must be above 0 Hz, not " + decimal_text(info_.rate));
+  require_rate(info_.rate, "the rate of a fed device");
   if (info_.backend.empty()) info_.backend = "fed";
 }
 

@@ -1,11 +1,8 @@
 #include "punctura_runtime/backends/registry.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <mutex>
-
-#include "punctura/model/decimal.hpp"
 
 namespace punctura {
 
@@ -54,8 +51,7 @@ std::vector<BackendStatus> enumerate_devices() {
 }
 
 std::shared_ptr<Device> open_device(const std::string& backend, const OpenOptions& options) {
-  if (!(options.rate > 0) || !std::isfinite(options.rate))
-    throw DeviceError("the rate must be above 0 Hz, not " + decimal_text(options.rate));
+  require_rate(options.rate);
   std::string known;
   for (const Backend* candidate : Table::all()) {
     if (backend == candidate->name) return candidate->open(options);

@@ -1,8 +1,5 @@
 #include "punctura_runtime/backends/replay.hpp"
 
-#include <cmath>
-
-#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/backend.hpp"
 
 namespace punctura {
@@ -11,8 +8,7 @@ ReplayDevice::ReplayDevice(std::vector<DeviceSample> samples, DeviceInfo recorde
     : samples_(std::move(samples)) {
   info_ = std::move(recorded);
   pacing_ = {options.real_time, options.real_time, options.realtime};
-  if (!(info_.rate > 0) || !std::isfinite(info_.rate))
-    throw DeviceError("the rate of a recording must be above 0 Hz, not " + decimal_text(info_.rate));
+  require_rate(info_.rate, "the rate of a recording");
   // Everything else is the recorded device's: its ratings limit the force, its encoder step selects the conditioning.
   if (info_.backend != "replay") info_.model = info_.model.empty() ? "a recorded motion" : info_.model + ", recorded";
   info_.backend = "replay";

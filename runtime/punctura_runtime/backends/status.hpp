@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "punctura/device/device.hpp"
+#include "punctura/model/words.hpp"
+
 namespace punctura {
 
 struct BackendStatus {
@@ -23,18 +26,16 @@ struct BackendStatus {
   std::vector<std::string> devices;  ///< the devices by the names that open_device() takes, or by the maker's
 };
 
-/// For programs: "available", "library_not_found", ...
-constexpr const char* name_of(BackendStatus::State state) noexcept {
-  switch (state) {
-    case BackendStatus::State::available: return "available";
-    case BackendStatus::State::library_not_found: return "library_not_found";
-    case BackendStatus::State::symbol_missing: return "symbol_missing";
-    case BackendStatus::State::no_device: return "no_device";
-    case BackendStatus::State::in_use: return "in_use";
-    case BackendStatus::State::needs_calibration: return "needs_calibration";
-    case BackendStatus::State::fault: return "fault";
-  }
-  return "fault";
-}
+/// For programs.
+template <>
+inline constexpr std::array<std::string_view, 7> words_of<BackendStatus::State>{
+    "available", "library_not_found", "symbol_missing", "no_device", "in_use", "needs_calibration", "fault"};
+
+/// Why a device does not open: the state that enumerate_devices() gives, and a message.
+class Refusal : public DeviceError {
+ public:
+  Refusal(BackendStatus::State why, const std::string& detail) : DeviceError(detail), state(why) {}
+  BackendStatus::State state;
+};
 
 }  // namespace punctura

@@ -1,4 +1,4 @@
-// What the motors of a device have given, from one run to the next.
+// The ratings of a device, and what its motors have given, from one run to the next.
 #pragma once
 
 #include <mutex>
@@ -15,6 +15,13 @@ inline std::mutex& motor_use_mutex() {
   return mutex;
 }
 }  // namespace detail
+
+/// The limits, not above the device's ratings. A rating that the device does not know is NaN: it lowers none.
+inline ForceLimits tightened(ForceLimits limits, const DeviceInfo& info) noexcept {
+  if (info.max_force < limits.max_force) limits.max_force = info.max_force;
+  if (info.continuous_force < limits.continuous_force) limits.continuous_force = info.continuous_force;
+  return limits;
+}
 
 /// The force budget that the motors have spent by `now` (s), N^2 s. The time since their last run counts as rest.
 inline double rested(Device& device, const ForceLimits& limits, double now) {

@@ -17,9 +17,6 @@ void copy(const Snapshot& from, Snapshot& to) noexcept {
 
 namespace {
 
-/// The lower of a limit and the device's rating; the limit if the rating is NaN (not known).
-double tighter(double limit, double rating) noexcept { return rating < limit ? rating : limit; }
-
 /// All loops of this program. No loop is destroyed while the lock is held.
 struct Loops {
   std::mutex mutex;
@@ -43,8 +40,7 @@ ServoLoop::ServoLoop(std::shared_ptr<Device> device, Scene scene, LoopSettings s
   if (auto problems = check(settings.placement); !problems.empty()) throw SceneError(std::move(problems));
   if (settings.thumb && &settings.thumb->device() == device_.get())
     throw std::invalid_argument("the thumb needs a device of its own, not the needle's");
-  settings_.limits.max_force = tighter(settings_.limits.max_force, device_->info().max_force);
-  settings_.limits.continuous_force = tighter(settings_.limits.continuous_force, device_->info().continuous_force);
+  settings_.limits = tightened(settings_.limits, device_->info());
   step_ = built(scene_, settings_.model);
   force_scale_ = step_->guard().force_scale();
   scene_.servo.rate = device_->info().rate;

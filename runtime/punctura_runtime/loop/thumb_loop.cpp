@@ -14,10 +14,7 @@ ThumbSettings checked(ThumbSettings settings, const DeviceInfo& info) {
   if (const double length = settings.direction.stableNorm(); !(length > 0 && std::isfinite(length)))
     throw std::invalid_argument("thumb direction must be three finite numbers, not all 0");
   settings.direction = settings.direction.stableNormalized();
-  // A rating that the device does not know is NaN, and then the comparison is false.
-  if (info.max_force < settings.limits.max_force) settings.limits.max_force = info.max_force;
-  if (info.continuous_force < settings.limits.continuous_force)
-    settings.limits.continuous_force = info.continuous_force;
+  settings.limits = tightened(settings.limits, info);
   if (const auto problems = check(settings.gate, settings.limits); !problems.empty())
     throw std::invalid_argument("thumb " + problems[0].path + " " + problems[0].reason);
   return settings;

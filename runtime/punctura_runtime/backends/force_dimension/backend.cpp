@@ -1,5 +1,4 @@
 // Force Dimension's devices in the registry.
-#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/force_dimension/device.hpp"
 
 namespace punctura {
@@ -27,14 +26,7 @@ BackendStatus status() {
   }
 }
 
-std::shared_ptr<Device> open(const OpenOptions& how) {
-  Options options;
-  options.rate = how.rate;
-  options.device = how.device;
-  options.library = how.library;
-  options.realtime = how.realtime;
-  return std::make_shared<ForceDimensionDevice>(std::move(options));
-}
+std::shared_ptr<Device> open(const OpenOptions& how) { return std::make_shared<ForceDimensionDevice>(Options{how}); }
 
 }  // namespace
 

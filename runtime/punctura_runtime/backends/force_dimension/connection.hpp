@@ -10,13 +10,6 @@
 
 namespace punctura::force_dimension {
 
-/// Why a device does not open: a state and a message.
-class Refusal : public DeviceError {
- public:
-  Refusal(BackendStatus::State why, const std::string& detail) : DeviceError(detail), state(why) {}
-  BackendStatus::State state;
-};
-
 /// The constructor opens the device. That gives no force and moves nothing.
 class Connection {
  public:

@@ -20,7 +20,7 @@ ForceDimensionDevice::ForceDimensionDevice(Options options) : options_(std::move
   const double norm = std::hypot(options_.tool[0], options_.tool[1], options_.tool[2]);
   if (!(norm > 0) || !std::isfinite(norm))
     throw DeviceError("the tool direction must be three finite numbers that are not all 0");
-  if (!(options_.rate > 0) || !std::isfinite(options_.rate)) throw DeviceError("the rate must be above 0 Hz");
+  require_rate(options_.rate);
   for (double& component : options_.tool) component /= norm;
   pacing_ = {true, true, options_.realtime, options_.clock};
   library_ = load(options_.library);

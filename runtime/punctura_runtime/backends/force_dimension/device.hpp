@@ -7,26 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "punctura/device/device.hpp"
-#include "punctura/model/omni.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/force_dimension/axes.hpp"
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
 #include "punctura_runtime/backends/force_dimension/library.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
-#include "punctura_runtime/os/os.hpp"
 
 namespace punctura::force_dimension {
 
 inline constexpr double fastest = 4000;  ///< Hz: the maker's rating for USB
 
-struct Options {
-  double rate = usual_rate;  ///< Hz, at most `fastest`
-  std::string device;        ///< label, model or serial number; empty is the first
-  std::string library;       ///< see load()
-  Triple tool{-1, 0, 0};     ///< direction of the needle in the axes of the handle; any length but 0
-  bool auto_init = false;    ///< lets an uncalibrated device calibrate itself: THE ARM MOVES
+/// rate: at most `fastest`. device: label, model or serial number. library: see load().
+struct Options : OpenOptions {
+  Triple tool{-1, 0, 0};   ///< direction of the needle in the axes of the handle; any length but 0
+  bool auto_init = false;  ///< lets an uncalibrated device calibrate itself: THE ARM MOVES
   LoopClock clock{};
-  os::RealtimeSettings realtime{};
 };
 
 /// Zero forces are written, too: the library compensates gravity only with a write.

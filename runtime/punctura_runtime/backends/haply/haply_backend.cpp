@@ -1,6 +1,5 @@
 // The Inverse3 in the registry.
 #include "punctura_runtime/backends/haply/haply_backend.hpp"
-#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/haply/haply_device.hpp"
 
 namespace punctura {
@@ -46,10 +45,7 @@ namespace {
 BackendStatus status() { return haply::status_at(haply::default_url()); }
 
 std::shared_ptr<Device> open(const OpenOptions& how) {
-  haply::HaplyOptions options;
-  options.device = how.device;
-  options.rate = how.rate;
-  options.realtime = how.realtime;
+  haply::HaplyOptions options{how};
   if (!how.library.empty())
     options.url = how.library;  // the maker's software is a service, which has an address instead of a path
   return std::make_shared<haply::HaplyDevice>(std::move(options));

@@ -6,23 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "punctura/device/device.hpp"
-#include "punctura/model/omni.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/haply/service.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
-#include "punctura_runtime/os/os.hpp"
 
 namespace punctura::haply {
 
-struct HaplyOptions {
+/// device: its device_id. rate: the service's round trip may allow less.
+struct HaplyOptions : OpenOptions {
   std::string url = default_url();
-  std::string device;        ///< its device_id; empty is the first
-  double rate = usual_rate;  ///< Hz, requested; the service's round trip may allow less
-  double max_force = 5;      ///< N. The maker publishes no limit; this is the lowest in public use
-  double stale = 0.015;      ///< s: timeout of an answer
-  double no_grip = 0.25;     ///< s for which a grip may be missing from the answers
-  bool real_time = true;     ///< false: as fast as answers come, on a clock of its own
-  os::RealtimeSettings realtime{};
+  double max_force = 5;   ///< N. The maker publishes no limit; this is the lowest in public use
+  double stale = 0.015;   ///< s: timeout of an answer
+  double no_grip = 0.25;  ///< s for which a grip may be missing from the answers
+  bool real_time = true;  ///< false: as fast as answers come, on a clock of its own
   std::int64_t (*now_ns)() noexcept = os::now_ns;  ///< the clock that measures the rate; tests replace it
 };
 

@@ -51,7 +51,7 @@ double number(const Interface& hd, Quantity which) {
 
 Session::Place::Place() {
   if (taken.exchange(true))
-    throw Refused(
+    throw Refusal(
         State::in_use,
         "A device is already open in this process, and the HD library drives one at a time: close that one first.");
 }
@@ -110,7 +110,7 @@ void Session::open(const std::string& wish) {
       break;
     }
   }
-  throw Refused(state, "No device could be opened." + tried);
+  throw Refusal(state, "No device could be opened." + tried);
 }
 
 void Session::ask() {

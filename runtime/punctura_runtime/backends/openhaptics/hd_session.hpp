@@ -10,19 +10,12 @@
 
 namespace punctura::hd {
 
-/// Why a device does not open, with the state that enumerate_devices() gives.
-class Refused : public DeviceError {
- public:
-  Refused(BackendStatus::State as, const std::string& why) : DeviceError(why), state(as) {}
-  BackendStatus::State state;
-};
-
 /// Opens in the constructor, closes in the destructor. One at a time in a process: the library has one scheduler and
 /// one stack of errors.
 class Session {
  public:
   /// name: as the maker's setup tool shows it; empty tries the usual names of the default device. keep: leaves the
-  /// device open for the next session, since some FireWire drivers crash when it is closed. Throws Refused.
+  /// device open for the next session, since some FireWire drivers crash when it is closed. Throws Refusal.
   Session(const Interface& hd, const std::string& name, bool keep);
   ~Session();
   Session(const Session&) = delete;

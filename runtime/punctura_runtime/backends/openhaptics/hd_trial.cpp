@@ -74,9 +74,9 @@ double run_once(const Lent<Counting>& counting, double patience) {
   const ErrorInfo after = take_errors(hd);
   if (!over) {
     const std::string why = after.code != success && after.code != bad_handle ? " " + describe(after) + "." : "";
-    throw Refused(State::fault, "The HD scheduler does not call: check the device's power and cable." + why);
+    throw Refusal(State::fault, "The HD scheduler does not call: check the device's power and cable." + why);
   }
-  if (c.error.code != success) throw Refused(State::fault, "The device does not run. " + describe(c.error) + ".");
+  if (c.error.code != success) throw Refusal(State::fault, "The device does not run. " + describe(c.error) + ".");
   return static_cast<double>(c.ticks - 1) * 1e9 / static_cast<double>(c.last - c.first);
 }
 
@@ -95,7 +95,7 @@ void set_rate(const Interface& hd, double wanted, Trial& trial) {
 
 void require_calibration(const Interface& hd, std::uint32_t status) {
   if (status != calibration_needs_manual_input) return;
-  throw Refused(State::needs_calibration, "The device does not know where its stylus is: " +
+  throw Refusal(State::needs_calibration, "The device does not know where its stylus is: " +
                                               how_to_calibrate(hd.check_calibration_style()) + ".");
 }
 
@@ -118,7 +118,7 @@ Trial try_out(const Session& session, double wanted_rate, double duration, doubl
     if (reported > 0 && std::abs(trial.rate - reported) < 0.02 * reported) break;
   }
   if (!(trial.rate >= 100))
-    throw Refused(State::fault, "The HD scheduler calls at " + hertz(trial.rate) + ": too slow for touch.");
+    throw Refusal(State::fault, "The HD scheduler calls at " + hertz(trial.rate) + ": too slow for touch.");
   trial.statements.back() += "; the library says " + hertz(reported) + ", measured " + hertz(trial.rate);
   if (renewals > 0) trial.statements.push_back("calibration: renewed by the library");
   return trial;

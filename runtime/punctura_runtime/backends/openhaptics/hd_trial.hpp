@@ -15,12 +15,12 @@ struct Trial {
   std::vector<std::string> statements;  ///< for the user
 };
 
-/// Sets the rate, measures it over `duration` (s), and renews the calibration if that needs no user. Throws Refused,
+/// Sets the rate, measures it over `duration` (s), and renews the calibration if that needs no user. Throws Refusal,
 /// also if the measurement takes longer by more than `patience` (s).
 Trial try_out(const Session& session, double wanted_rate, double duration, double patience,
               std::int64_t (*now_ns)() noexcept);
 
-/// Throws Refused if the user must calibrate the device.
+/// Throws Refusal if the user must calibrate the device.
 void require_calibration(const Interface& hd, std::uint32_t status);
 
 }  // namespace punctura::hd

@@ -13,7 +13,7 @@ namespace {
 
 const hd::Interface& loaded(const std::string& library) {
   const hd::Loaded result = hd::load(library);
-  if (!result.functions) throw hd::Refused(result.state, result.detail);
+  if (!result.functions) throw Refusal(result.state, result.detail);
   return *result.functions;
 }
 

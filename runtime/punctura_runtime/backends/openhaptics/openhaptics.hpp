@@ -7,19 +7,14 @@
 #include <mutex>
 #include <vector>
 
-#include "punctura/device/device.hpp"
-#include "punctura/model/omni.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
 #include "punctura_runtime/backends/openhaptics/openhaptics_tick.hpp"
-#include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
 
-struct OpenHapticsOptions {
-  double rate = usual_rate;                        ///< Hz, requested
-  std::string device;                              ///< empty is the default device
-  std::string library;                             ///< empty searches the usual places
+struct OpenHapticsOptions : OpenOptions {
   bool keep_device = false;                        ///< never closes it: some FireWire drivers crash when it is closed
   double trial = 0.25;                             ///< s: duration of the measurement of the rate
   double patience = 2;                             ///< s: how much longer the measurement may take
@@ -28,7 +23,7 @@ struct OpenHapticsOptions {
 
 class OpenHapticsDevice : public Device {
  public:
-  /// Loads the library, opens the device, renews its calibration, measures its rate. Throws hd::Refused, which is a
+  /// Loads the library, opens the device, renews its calibration, measures its rate. Throws Refusal, which is a
   /// DeviceError.
   explicit OpenHapticsDevice(const OpenHapticsOptions& options);
   ~OpenHapticsDevice() override { stop(); }

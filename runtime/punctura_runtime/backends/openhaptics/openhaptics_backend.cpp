@@ -1,5 +1,4 @@
 // OpenHaptics in the registry.
-#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_library.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
 #include "punctura_runtime/backends/openhaptics/openhaptics.hpp"
@@ -27,16 +26,13 @@ BackendStatus status() {
         BackendStatus::State::available,
         info.model + (info.serial.empty() ? "" : ", serial number " + info.serial) + ", through " + loaded.path + ".",
         {session.name()}};
-  } catch (const hd::Refused& refused) {
+  } catch (const Refusal& refused) {
     return {name, refused.state, refused.what() + std::string(" (Library: ") + loaded.path + ".)", {}};
   }
 }
 
 std::shared_ptr<Device> open(const OpenOptions& how) {
-  OpenHapticsOptions options;
-  options.rate = how.rate;
-  options.device = how.device;
-  options.library = how.library;
+  OpenHapticsOptions options{how};
   options.keep_device = keep_device();
   return std::make_shared<OpenHapticsDevice>(options);
 }
