@@ -4,6 +4,7 @@
 
 #include "bindings.hpp"
 #include "punctura/lab/trace/trace_model.hpp"
+#include "value.hpp"
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
@@ -11,15 +12,21 @@ namespace {
 
 using FloatsPair = std::tuple<Floats, Floats>;
 
+nb::tuple names_of(std::span<const Field> fields) {
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.emplace_back(field.name);
+  return shown_tuple(names);
+}
+
 struct TraceParameters {
   std::vector<TraceMembrane> membranes;
   TraceCoupling coupling;
 };
 TraceParameters parameters_of(const Needle& needle, const nb::object& membranes, const nb::object& coupling) {
   const Input given = input(membranes, "membranes"), shared = input(coupling, "coupling");
-  if (given.ndim() != 2 || given.shape(1) != trace_membrane_names.size())
-    throw nb::value_error("membranes must be (m, 11): see TraceModel.membrane_names");
-  if (shared.ndim() != 1 || shared.shape(0) != trace_coupling_names.size())
+  if (given.ndim() != 2 || given.shape(1) != trace_membrane_fields.size())
+    throw nb::value_error("membranes must be (m, k): see TraceModel.membrane_names");
+  if (shared.ndim() != 1 || shared.shape(0) != trace_coupling_fields.size())
     throw nb::value_error("coupling must be (6,): see TraceModel.coupling_names");
   std::vector<TraceMembrane> m(given.shape(0));
   for (std::size_t i = 0; i < m.size(); ++i) std::copy_n(given.data() + i * m[i].size(), m[i].size(), m[i].begin());
@@ -29,7 +36,7 @@ TraceParameters parameters_of(const Needle& needle, const nb::object& membranes,
   return {std::move(m), c};
 }
 
-/// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 17 or 0).
+/// The depths behind the surfaces at which a slow needle pops (m,), and their derivatives (m, 6 + k, or 0).
 FloatsPair pop_depths(const Needle& needle, const ArrayLike& membranes, const ArrayLike& coupling, bool jacobian) {
   const auto [m, c] = parameters_of(needle, membranes, coupling);
   std::vector<double> depths, rows;
@@ -78,13 +85,14 @@ class TraceModel {
  private:
   static std::array<bool, trace_parameters(1)> flags(const std::vector<std::string>& names) {
     std::array<bool, trace_parameters(1)> wanted{};
-    const auto& shared = trace_coupling_names;
     for (const std::string& name : names) {
-      const auto c = std::find(shared.begin(), shared.end(), name);
-      const auto m = std::find(trace_membrane_names.begin(), trace_membrane_names.end(), name);
-      if (c == shared.end() && m == trace_membrane_names.end()) throw nb::value_error("by: see membrane_names");
-      const auto at = c != shared.end() ? c - shared.begin() : m - trace_membrane_names.begin() + std::ssize(shared);
-      wanted[static_cast<std::size_t>(at)] = true;
+      const auto place = [&](const auto& fields) {
+        return static_cast<std::size_t>(std::ranges::find(fields, name, &Field::name) - fields.begin());
+      };
+      std::size_t at = place(trace_coupling_fields);
+      if (at == trace_coupling_fields.size()) at += place(trace_membrane_fields);
+      if (at == wanted.size()) throw nb::value_error("by: see membrane_names");
+      wanted[at] = true;
     }
     return wanted;
   }
@@ -112,20 +120,20 @@ void bind_trace(nb::module_& m) {
   model.def("__repr__", &TraceModel::text);
   model.def("forces", &TraceModel::forces, nb::arg("membranes"), nb::arg("coupling"), nb::arg("jacobian") = true,
             nb::arg("by") = std::vector<std::string>{},
-            "The force that resists insertion (n,), N, and its derivatives (n, 6 + 11 m): by the coupling, then by "
-            "each membrane.\n\nmembranes: (m, 11), coupling: (6,), SI, in the order of membrane_names and "
+            "The force that resists insertion (n,), N, and its derivatives (n, 6 + k m): by the coupling, then by "
+            "each membrane.\n\nmembranes: (m, k), coupling: (6,), SI, in the order of membrane_names and "
             "coupling_names. by: names of parameters; derivatives by others are 0 (default: none is left out). Raises "
             "ConfigurationError, ValueError.");
   model.def_static("pop_depths", &pop_depths, nb::arg("needle"), nb::arg("membranes"), nb::arg("coupling"),
                    nb::arg("jacobian") = true,
                    "How far behind each surface the tip of a slow needle is when it pops (m,), m, and the derivatives "
-                   "(m, 17): by the coupling, then by the membrane.");
+                   "(m, 6 + k): by the coupling, then by the membrane.");
   model.def_prop_ro_static(
-      "membrane_names", [](nb::handle) { return std::tuple_cat(trace_membrane_names); },
+      "membrane_names", [](nb::handle) { return names_of(trace_membrane_fields); },
       nb::sig("def membrane_names(cls, /) -> tuple[str, ...]"),
       "The parameters of a membrane, in the order of the columns of `membranes`.");
   model.def_prop_ro_static(
-      "coupling_names", [](nb::handle) { return std::tuple_cat(trace_coupling_names); },
+      "coupling_names", [](nb::handle) { return names_of(trace_coupling_fields); },
       nb::sig("def coupling_names(cls, /) -> tuple[str, ...]"),
       "The parameters of the coupling, in the order of `coupling`.");
 }

@@ -40,7 +40,7 @@ _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
 
 @dataclass(frozen=True)
 class Parameters:
-    """The values of all parameters, SI. membranes: (m, 11); coupling: (6,); nuisance: (4,), as NUISANCE."""
+    """The values of all parameters, SI. A row of membranes has those of MEMBRANE, the others as COUPLING, NUISANCE."""
 
     needle: Needle  # as it was given
     membranes: Array

@@ -13,9 +13,9 @@ using punctura::TraceMembrane;
 
 constexpr punctura::Needle trace_needle{1.2e-3, 0.4};
 constexpr TraceMembrane trace_k06{5.0137e-3, 600, 0.3, 0.2, 0.5e-3, 0, 0, 0, 1, 0, 0};
-constexpr TraceMembrane trace_tissue{6.0137e-3, 300, 0.1, 0.3, 1e-3, 2e-3, 400, 0.8e-3, 0.6, 0.3, 0.2};
+constexpr TraceMembrane trace_tissue{6.0137e-3, 300, 0.1, 0.3, 1e-3, 400, 2e-3, 0.8e-3, 0.6, 0.3, 0.2};
 /// The tip has passed most of the wall when it leaves, and goes deeper afterwards.
-constexpr TraceMembrane trace_thick{6.0137e-3, 300, 0.1, 0.3, 8e-3, 2e-3, 400, 0.8e-3, 0.6, 0.3, 0.2};
+constexpr TraceMembrane trace_thick{6.0137e-3, 300, 0.1, 0.3, 8e-3, 400, 2e-3, 0.8e-3, 0.6, 0.3, 0.2};
 
 struct TraceRun {
   std::vector<double> depth, time;

@@ -9,8 +9,18 @@ from punctura import ConfigurationError
 from punctura._core import TraceModel
 from traces import MEMBRANE, NEEDLE, RATE, force_of, motion
 
-K06 = [5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness, 0, 0, 0, 1, 0, 0]
-TISSUE = [8e-3, 300, 0.1, 0.3, 1e-3, 2e-3, 400.0, 0.8e-3, 0.6, 0.3, 0.2]
+
+def row(**values):
+    return [values.get(name, getattr(pn.Tissue(), name, 0.0)) for name in TraceModel.membrane_names]
+
+
+K06 = row(
+    surface=5e-3, **{name: getattr(MEMBRANE, name) for name in ("stiffness", "precompression", "friction", "thickness")}
+)
+TAIL = {"tip_length": 2e-3, "growth": 400.0, "tail_length": 0.8e-3, "tail_floor": 0.6}
+TISSUE = row(
+    surface=8e-3, stiffness=300, precompression=0.1, friction=0.3, thickness=1e-3, cutting=0.3, set=0.2, **TAIL
+)
 COUPLING = [1500, 0.5, 0, 1, 0, 1]
 
 
@@ -46,7 +56,8 @@ def test_derivatives_are_exact(membranes):
 
 
 def test_a_sample_with_a_pop_gets_the_mean_over_its_way_also_in_an_old_hole():
-    wall, coupling, finer = [5e-3, 600, 0.1, 0.3, 1e-4, 2e-3, 400.0, 0.8e-3, 0.6, 0.5, 0.6], [300, 0, 0, 1, 0, 10], 200
+    k06 = {"surface": 5e-3, "stiffness": 600, "precompression": 0.1, "friction": 0.3, "thickness": 1e-4}
+    wall, coupling, finer = row(cutting=0.5, set=0.6, **k06, **TAIL), [300, 0, 0, 1, 0, 10], 200
     _, depth = motion(deepest=22e-3, times=2, hold=0.1)
     time = np.arange((len(depth) - 1) * finer + 1) / finer
     fine, _ = TraceModel(NEEDLE, np.interp(time, np.arange(len(depth)), depth), time / RATE).forces(

@@ -23,17 +23,24 @@
 
 namespace punctura {
 
-/// The parameters of one membrane of a trace, in this order.
-inline constexpr std::array<std::string_view, 11> trace_membrane_names{
-    "surface", "stiffness",   "precompression", "friction", "thickness", "tip_length",
-    "growth",  "tail_length", "tail_floor",     "cutting",  "set"};
+/// The parameters of one membrane of a trace, in this order: the depth of contact, then the numbers of Membrane and
+/// Tissue.
+inline constexpr auto trace_membrane_fields = [] {
+  std::array<Field, 1 + std::size(membrane_fields) + tissue_fields.size()> fields{{{"surface", "", "m"}}};
+  std::copy(tissue_fields.begin(), tissue_fields.end(),
+            std::copy(std::begin(membrane_fields), std::end(membrane_fields), fields.begin() + 1));
+  return fields;
+}();
 /// The parameters of the coupling, which all membranes of a trace share, in this order.
-inline constexpr std::array<std::string_view, 6> trace_coupling_names{"coupling_stiffness",     "coupling_damping",
-                                                                      "relaxation_1_stiffness", "relaxation_1_time",
-                                                                      "relaxation_2_stiffness", "relaxation_2_time"};
+inline constexpr std::array<Field, 6> trace_coupling_fields{{{"coupling_stiffness", "K", "N/m", greater_than_0},
+                                                             {"coupling_damping", "B", "N s/m", at_least_0},
+                                                             {"relaxation_1_stiffness", "", "N/m", at_least_0},
+                                                             {"relaxation_1_time", "", "s", greater_than_0},
+                                                             {"relaxation_2_stiffness", "", "N/m", at_least_0},
+                                                             {"relaxation_2_time", "", "s", greater_than_0}}};
 
-using TraceMembrane = std::array<double, trace_membrane_names.size()>;  ///< SI; surface is the depth of contact, m
-using TraceCoupling = std::array<double, trace_coupling_names.size()>;  ///< SI
+using TraceMembrane = std::array<double, trace_membrane_fields.size()>;  ///< SI
+using TraceCoupling = std::array<double, trace_coupling_fields.size()>;  ///< SI
 
 /// The measured motion of a needle along its own direction.
 struct TraceMotion {
@@ -44,18 +51,16 @@ struct TraceMotion {
 
 /// The number of derivatives of a sample: by the parameters of the coupling, then by those of each membrane.
 constexpr std::size_t trace_parameters(std::size_t membranes) noexcept {
-  return trace_coupling_names.size() + membranes * trace_membrane_names.size();
+  return trace_coupling_fields.size() + membranes * trace_membrane_fields.size();
 }
 
 /// The additions to K06's membrane. A growth of 0 is a linear grip.
 template <typename Scalar>
-BasicTissue<Scalar> tissue_of(const std::array<Scalar, trace_membrane_names.size()>& p) {
+BasicTissue<Scalar> tissue_of(const std::array<Scalar, trace_membrane_fields.size()>& p) {
   BasicTissue<Scalar> tissue;
-  tissue.grip = p[6] == 0 ? GripShape::linear : GripShape::exponential;
-  constexpr auto numbers = numbers_of<Scalar>(tissue_rows_of<Scalar>);
-  for (std::size_t i = 0; i < p.size(); ++i)
-    for (const auto& number : numbers)
-      if (number.name == trace_membrane_names[i]) tissue.*number.member = p[i];
+  auto from = p.end() - tissue_fields.size();
+  for (const auto& number : numbers_of<Scalar>(tissue_rows_of<Scalar>)) tissue.*number.member = *from++;
+  tissue.grip = tissue.growth == 0 ? GripShape::linear : GripShape::exponential;
   return tissue;
 }
 
@@ -64,27 +69,22 @@ inline std::vector<Problem> problems_of_trace(const Needle& needle, std::span<co
                                               const TraceCoupling& coupling) {
   std::vector<Problem> problems;
   check(needle, "needle", problems);
-  constexpr Range any{};
-  const auto check_one = [&](const Range& range, std::string_view name, double value, const std::string& path) {
-    check_field({name, "", "", range}, value, path, problems);
-  };
   for (std::size_t m = 0; m < membranes.size(); ++m) {
     const std::string path = "membrane[" + std::to_string(m) + "]";
     const TraceMembrane& p = membranes[m];
-    check_one(any, trace_membrane_names[0], p[0], path);
+    check_field(trace_membrane_fields[0], p[0], path, problems);
     const Membrane membrane{p[1], p[2], p[3], p[4]};
     if (check(membrane, path, problems)) check_insertion(needle, membrane, path, problems);
     const Tissue tissue = tissue_of(p);
     check(tissue, path, problems);  // a search may pass curves that chords follow badly: no check_curve()
   }
-  for (std::size_t i = 0; i < coupling.size(); ++i)
-    check_one(i == 0 || i == 3 || i == 5 ? greater_than_0 : at_least_0, trace_coupling_names[i], coupling[i], "");
+  for (std::size_t i = 0; i < coupling.size(); ++i) check_field(trace_coupling_fields[i], coupling[i], "", problems);
   return problems;
 }
 
 namespace detail {
 
-constexpr std::size_t coupling_seeds = trace_coupling_names.size(), membrane_seeds = trace_membrane_names.size();
+constexpr std::size_t coupling_seeds = trace_coupling_fields.size(), membrane_seeds = trace_membrane_fields.size();
 using TraceDual = Dual<coupling_seeds + membrane_seeds>;  ///< derivatives: the coupling, then one membrane
 
 /// Which derivative of a dual number is that by a parameter (the coupling's, then a membrane's); `none`: it has none.
