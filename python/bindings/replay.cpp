@@ -67,11 +67,8 @@ class InputColumns {
   template <typename Self, typename Do>
   static void each(Self& self, Do&& act) {
     for_each_field(tick_table, [&](const auto& field, auto i) {
-      using F = std::remove_cvref_t<decltype(field)>;
-      if constexpr (F::part == TickPart::snapshot) {
-        if constexpr (F::template stored<Snapshot>)
-          if (field.use & use_input) act(field, std::get<i>(self.columns_));
-      }
+      if constexpr (is_of<Snapshot, decltype(field)>)
+        if (field.use & use_input) act(field, std::get<i>(self.columns_));
     });
   }
 

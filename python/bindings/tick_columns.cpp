@@ -37,9 +37,9 @@ struct TickColumns::Columns {
   }
 };
 
-TickColumns::TickColumns(std::initializer_list<std::string_view> only, bool with_extra) : columns_(new Columns) {
+TickColumns::TickColumns(const std::vector<std::string_view>& only, bool with_extra) : columns_(new Columns) {
   for_each_field(experiment_table, [&](const auto& field, auto i) {
-    constexpr bool is_extra = std::remove_cvref_t<decltype(field)>::part == TickPart::extra;
+    constexpr bool is_extra = is_of<ExperimentExtra, decltype(field)>;
     const bool named = only.size() == 0 || std::find(only.begin(), only.end(), field.name) != only.end();
     columns_->wanted[i] = is_extra ? with_extra : named;
   });
@@ -70,7 +70,7 @@ void TickColumns::add(const Snapshot& record, const ExperimentExtra& extra) {
         Put::put(&column[at + m * Put::width], field.get(record.membranes[m]));
     } else {
       column.resize(at + Put::width);
-      if constexpr (std::remove_cvref_t<decltype(field)>::part == TickPart::extra)
+      if constexpr (is_of<ExperimentExtra, decltype(field)>)
         Put::put(&column[at], field.get(extra));
       else
         Put::put(&column[at], field.get(record));

@@ -1,9 +1,9 @@
 // Converts snapshots to columns, by the table of tick fields.
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "bindings.hpp"
 #include "punctura/lab/plant/experiment_table.hpp"
@@ -15,7 +15,7 @@ namespace punctura::bindings {
 class TickColumns {
  public:
   /// only: names of the fields to keep; empty for all. with_extra: also what only an experiment knows.
-  explicit TickColumns(std::initializer_list<std::string_view> only = {}, bool with_extra = false);
+  explicit TickColumns(const std::vector<std::string_view>& only = {}, bool with_extra = false);
   ~TickColumns();
   /// Throws MemoryError that names the number of rows.
   void reserve(std::size_t rows, std::size_t membranes = 0);

@@ -28,13 +28,13 @@ struct Stored<Triple> {
   static void put(double* at, const Triple& value) noexcept { std::copy(value.begin(), value.end(), at); }
 };
 
-/// The struct that holds a field, and the stored type.
-template <typename Field, TickPart part = std::remove_cvref_t<Field>::part>
-using PartOf = std::conditional_t<part == TickPart::membrane, MembraneRecord,
-                                  std::conditional_t<part == TickPart::extra, ExperimentExtra, Snapshot>>;
+/// Whether a field is one of this record.
+template <typename Record, typename Field>
+inline constexpr bool is_of = std::is_same_v<typename std::remove_cvref_t<Field>::Record, Record>;
+/// The stored type of a field.
 template <typename Field>
-struct FieldStore : Stored<typename std::remove_cvref_t<Field>::template Value<PartOf<Field>>> {
-  using Value = typename std::remove_cvref_t<Field>::template Value<PartOf<Field>>;
+struct FieldStore : Stored<typename std::remove_cvref_t<Field>::Value> {
+  using Value = typename std::remove_cvref_t<Field>::Value;
 };
 
 /// One std::vector for each field of a table.

@@ -16,147 +16,103 @@ enum TickUse : unsigned {
   use_page = 2,   ///< sent to the studio's page
 };
 
-/// The record that contains a field.
-enum class TickPart {
-  snapshot,
-  membrane,  ///< the record of a membrane in the snapshot
-  extra,     ///< a record beside the snapshot: ExperimentExtra
-};
-
-/// One field. `get` reads it from its part. It returns a reference to a stored field, so that a replay can set it. It
-/// returns a value for a derived field.
-template <TickPart part_, typename Get>
+/// One field of a Record: a Snapshot, a MembraneRecord, or a record beside the snapshot. `get` returns a reference to
+/// it, so that a replay can set it.
+template <typename Record_, typename Get>
 struct TickField {
-  static constexpr TickPart part = part_;
-  static constexpr bool per_membrane = part == TickPart::membrane;
+  using Record = Record_;
+  using Value = std::remove_cvref_t<std::invoke_result_t<const Get&, const Record&>>;
+  static constexpr bool per_membrane = std::is_same_v<Record, MembraneRecord>;
   const char* name;
   /// Name of the column in a file. {a} is x, y or z. {i} is the number of the membrane.
   const char* column;
   const char* unit;  ///< empty for numbers without a unit
-  const char* says;
   unsigned use;
+  const char* says;
   Get get;
-
-  template <typename Record>
-  using Value = std::remove_cvref_t<std::invoke_result_t<const Get&, const Record&>>;
-  /// Whether a replay can set the field in a Record.
-  template <typename Record>
-  static constexpr bool stored = std::is_lvalue_reference_v<std::invoke_result_t<const Get&, Record&>>;
 };
 
-namespace detail {
-template <TickPart part, typename Get>
-constexpr auto tick_field(const char* name, const char* column, const char* unit, unsigned use, Get get,
-                          const char* says) {
-  return TickField<part, Get>{name, column, unit, says, use, get};
+/// The field that is this member of a record, or a member of this member.
+template <typename Record, typename Member, typename... Inner>
+constexpr auto tick_field(const char* name, const char* column, const char* unit, unsigned use, const char* says,
+                          Member Record::* member, Inner... inner) {
+  auto get = [=](auto& record) -> auto& { return ((record.*member).*....*inner); };
+  return TickField<Record, decltype(get)>{name, column, unit, use, says, get};
 }
-}  // namespace detail
 
 // clang-format off
 /// The fields in the order of the columns in a file. The fields that a person looks for first come first.
 inline constexpr std::tuple tick_table{
-    detail::tick_field<TickPart::snapshot>("tick", "tick", "", use_file,
-        [](auto& s) -> auto& { return s.tick; },
-        "Number of the tick, from 0"),
-    detail::tick_field<TickPart::snapshot>("time", "time_s", "s", use_input | use_page,
-        [](auto& s) -> auto& { return s.sample.time; },
-        "When the tick began, on a clock that never goes back"),
-    detail::tick_field<TickPart::snapshot>("position", "{a}_m", "m", use_input | use_page,
-        [](auto& s) -> auto& { return s.sample.position; },
-        "The needle's tip as the device reported it"),
-    detail::tick_field<TickPart::snapshot>("axis", "axis_{a}", "", use_input | use_page,
-        [](auto& s) -> auto& { return s.sample.axis; },
-        "Unit direction in which the needle points"),
-    detail::tick_field<TickPart::snapshot>("force", "f{a}_N", "N", use_page,
-        [](auto& s) -> auto& { return s.force; },
-        "The felt force, which goes to the device: after force scale and all limits"),
-    detail::tick_field<TickPart::membrane>("depth", "depth_{i}_m", "m", use_page,
-        [](auto& m) -> auto& { return m.depth; },
-        "Depth of the band. Inside: along the needle's direction b. Outside: along the normal. 0 is the surface"),
-    detail::tick_field<TickPart::membrane>("axial_force", "force_{i}_N", "N", use_page,
-        [](auto& m) -> auto& { return m.axial_force; },
-        "The membrane's force along the needle's direction b"),
-    detail::tick_field<TickPart::membrane>("lower", "lower_{i}_N", "N", use_page,
-        [](auto& m) -> auto& { return m.lower; },
-        "Lower edge of the band of friction, Phi_I"),
-    detail::tick_field<TickPart::membrane>("upper", "upper_{i}_N", "N", use_page,
-        [](auto& m) -> auto& { return m.upper; },
-        "Upper edge of the band of friction, Phi_O"),
-    detail::tick_field<TickPart::membrane>("phase", "phase_{i}", "", use_page,
-        [](auto& m) -> auto& { return m.phase; },
-        "What the needle does in the membrane"),
-    detail::tick_field<TickPart::membrane>("proxy", "proxy_{i}_{a}_m", "m", use_page,
-        [](auto& m) -> auto& { return m.proxy; },
-        "The proxy q"),
-    detail::tick_field<TickPart::membrane>("direction", "direction_{i}_{a}", "", use_page,
-        [](auto& m) -> auto& { return m.direction; },
-        "The needle's direction b, held from entry on while inside"),
-    detail::tick_field<TickPart::snapshot>("model_force", "model_f{a}_N", "N", use_page,
-        [](auto& s) -> auto& { return s.model_force; },
-        "The model's force, all membranes together, before force scale and limits"),
-    detail::tick_field<TickPart::snapshot>("force_scale", "force_scale", "", use_page,
-        [](auto& s) -> auto& { return s.force_scale; },
-        "How much of model_force this device gives, before the limits: greater than 0, at most 1"),
-    detail::tick_field<TickPart::snapshot>("tip", "tip_{a}_m", "m", use_page,
-        [](auto& s) -> auto& { return s.tip; },
-        "The conditioned position, which the model gets"),
-    detail::tick_field<TickPart::snapshot>("thumb", "thumb_m", "m", use_input | use_page,
-        [](auto& s) -> auto& { return s.sample.thumb; },
-        "Depth of the thumb on the syringe's plunger, from where the plunger starts"),
-    detail::tick_field<TickPart::snapshot>("plunger", "plunger_m", "m", use_page,
-        [](auto& s) -> auto& { return s.syringe.plunger; },
-        "Depth of the syringe's plunger; NaN if the scene has no syringe"),
-    detail::tick_field<TickPart::snapshot>("thumb_force", "thumb_force_N", "N", use_page,
-        [](auto& s) -> auto& { return s.syringe.force; },
-        "The plunger's force on the thumb, negative while the thumb pushes; NaN without a syringe"),
-    detail::tick_field<TickPart::snapshot>("thumb_felt", "thumb_felt_N", "N", use_input | use_page,
-        [](auto& s) -> auto& { return s.sample.thumb_felt; },
-        "Felt force of the thumb: what a second device gave last, after force scale and its limits; 0 without one"),
-    detail::tick_field<TickPart::snapshot>("pressure", "pressure_Pa", "Pa", use_page,
-        [](auto& s) -> auto& { return s.syringe.pressure; },
-        "Pressure in the syringe above that of the atmosphere; NaN without a syringe"),
-    detail::tick_field<TickPart::snapshot>("injected", "injected_m3", "m^3", use_page,
-        [](auto& s) -> auto& { return s.syringe.left; },
-        "Volume that left the syringe through the needle so far; NaN without a syringe"),
-    detail::tick_field<TickPart::snapshot>("state", "state", "", use_page,
-        [](auto& s) -> auto& { return s.state; },
-        "What the servo step does with forces"),
-    detail::tick_field<TickPart::snapshot>("fault", "fault", "", use_page,
-        [](auto& s) -> auto& { return s.fault; },
-        "The latched fault"),
-    detail::tick_field<TickPart::snapshot>("limit", "limit", "", use_page,
-        [](auto& s) -> auto& { return s.limit; },
-        "The limit that makes force smaller than force_scale times model_force"),
-    detail::tick_field<TickPart::snapshot>("commands", "commands", "", use_input,
-        [](auto& s) -> auto& { return s.commands; },
-        "What was asked since the tick before, as bits: 1 arm, 2 disarm, 4 reset, 8 a new scene"),
-    detail::tick_field<TickPart::snapshot>("sequence", "sequence", "", use_input,
-        [](auto& s) -> auto& { return s.sample.sequence; },
-        "The device's own count of readings"),
-    detail::tick_field<TickPart::snapshot>("buttons", "buttons", "", use_input,
-        [](auto& s) -> auto& { return s.sample.buttons; },
-        "Buttons that are held, one bit each"),
-    detail::tick_field<TickPart::snapshot>("healthy", "healthy", "", use_input,
-        [](auto& s) -> auto& { return s.sample.healthy; },
-        "False where the device's back-end reports a fault of its own"),
-    detail::tick_field<TickPart::snapshot>("motor_temperature", "motor_temperature", "", use_input,
-        [](auto& s) -> auto& { return s.sample.motor_temperature; },
-        "Hottest motor: 0 is cold or not reported, 1 is the maker's danger limit"),
-    detail::tick_field<TickPart::snapshot>("ceiling", "ceiling_N", "N", use_page,
-        [](auto& s) -> auto& { return s.ceiling; },
-        "The largest force that all limits permit in this tick"),
-    detail::tick_field<TickPart::snapshot>("peak_limited", "peak_limited", "", use_file,
-        [](auto& s) -> auto& { return s.limits.peak; },
-        "Ticks so far in which the peak limit acted"),
-    detail::tick_field<TickPart::snapshot>("continuous_limited", "continuous_limited", "", use_file,
-        [](auto& s) -> auto& { return s.limits.continuous; },
-        "Ticks so far in which the limit on continuous force acted"),
-    detail::tick_field<TickPart::snapshot>("temperature_limited", "temperature_limited", "", use_file,
-        [](auto& s) -> auto& { return s.limits.temperature; },
-        "Ticks so far in which warm motors lowered the ceiling"),
-    detail::tick_field<TickPart::snapshot>("ramp_limited", "ramp_limited", "", use_file,
-        [](auto& s) -> auto& { return s.limits.ramp; },
-        "Ticks so far in which the force still grew after arming"),
+    tick_field("tick", "tick", "", use_file, "Number of the tick, from 0", &Snapshot::tick),
+    tick_field("time", "time_s", "s", use_input | use_page,
+        "When the tick began, on a clock that never goes back", &Snapshot::sample, &DeviceSample::time),
+    tick_field("position", "{a}_m", "m", use_input | use_page,
+        "The needle's tip as the device reported it", &Snapshot::sample, &DeviceSample::position),
+    tick_field("axis", "axis_{a}", "", use_input | use_page,
+        "Unit direction in which the needle points", &Snapshot::sample, &DeviceSample::axis),
+    tick_field("force", "f{a}_N", "N", use_page,
+        "The felt force, which goes to the device: after force scale and all limits", &Snapshot::force),
+    tick_field("depth", "depth_{i}_m", "m", use_page,
+        "Depth of the band. Inside: along the needle's direction b. Outside: along the normal. 0 is the surface",
+        &MembraneRecord::depth),
+    tick_field("axial_force", "force_{i}_N", "N", use_page,
+        "The membrane's force along the needle's direction b", &MembraneRecord::axial_force),
+    tick_field("lower", "lower_{i}_N", "N", use_page,
+        "Lower edge of the band of friction, Phi_I", &MembraneRecord::lower),
+    tick_field("upper", "upper_{i}_N", "N", use_page,
+        "Upper edge of the band of friction, Phi_O", &MembraneRecord::upper),
+    tick_field("phase", "phase_{i}", "", use_page, "What the needle does in the membrane", &MembraneRecord::phase),
+    tick_field("proxy", "proxy_{i}_{a}_m", "m", use_page, "The proxy q", &MembraneRecord::proxy),
+    tick_field("direction", "direction_{i}_{a}", "", use_page,
+        "The needle's direction b, held from entry on while inside", &MembraneRecord::direction),
+    tick_field("model_force", "model_f{a}_N", "N", use_page,
+        "The model's force, all membranes together, before force scale and limits", &Snapshot::model_force),
+    tick_field("force_scale", "force_scale", "", use_page,
+        "How much of model_force this device gives, before the limits: greater than 0, at most 1",
+        &Snapshot::force_scale),
+    tick_field("tip", "tip_{a}_m", "m", use_page, "The conditioned position, which the model gets", &Snapshot::tip),
+    tick_field("thumb", "thumb_m", "m", use_input | use_page,
+        "Depth of the thumb on the syringe's plunger, from where the plunger starts",
+        &Snapshot::sample, &DeviceSample::thumb),
+    tick_field("plunger", "plunger_m", "m", use_page,
+        "Depth of the syringe's plunger; NaN if the scene has no syringe", &Snapshot::syringe, &SyringeRecord::plunger),
+    tick_field("thumb_force", "thumb_force_N", "N", use_page,
+        "The plunger's force on the thumb, negative while the thumb pushes; NaN without a syringe",
+        &Snapshot::syringe, &SyringeRecord::force),
+    tick_field("thumb_felt", "thumb_felt_N", "N", use_input | use_page,
+        "Felt force of the thumb: what a second device gave last, after force scale and its limits; 0 without one",
+        &Snapshot::sample, &DeviceSample::thumb_felt),
+    tick_field("pressure", "pressure_Pa", "Pa", use_page,
+        "Pressure in the syringe above that of the atmosphere; NaN without a syringe",
+        &Snapshot::syringe, &SyringeRecord::pressure),
+    tick_field("injected", "injected_m3", "m^3", use_page,
+        "Volume that left the syringe through the needle so far; NaN without a syringe",
+        &Snapshot::syringe, &SyringeRecord::left),
+    tick_field("state", "state", "", use_page, "What the servo step does with forces", &Snapshot::state),
+    tick_field("fault", "fault", "", use_page, "The latched fault", &Snapshot::fault),
+    tick_field("limit", "limit", "", use_page,
+        "The limit that makes force smaller than force_scale times model_force", &Snapshot::limit),
+    tick_field("commands", "commands", "", use_input,
+        "What was asked since the tick before, as bits: 1 arm, 2 disarm, 4 reset, 8 a new scene", &Snapshot::commands),
+    tick_field("sequence", "sequence", "", use_input,
+        "The device's own count of readings", &Snapshot::sample, &DeviceSample::sequence),
+    tick_field("buttons", "buttons", "", use_input,
+        "Buttons that are held, one bit each", &Snapshot::sample, &DeviceSample::buttons),
+    tick_field("healthy", "healthy", "", use_input,
+        "False where the device's back-end reports a fault of its own", &Snapshot::sample, &DeviceSample::healthy),
+    tick_field("motor_temperature", "motor_temperature", "", use_input,
+        "Hottest motor: 0 is cold or not reported, 1 is the maker's danger limit",
+        &Snapshot::sample, &DeviceSample::motor_temperature),
+    tick_field("ceiling", "ceiling_N", "N", use_page,
+        "The largest force that all limits permit in this tick", &Snapshot::ceiling),
+    tick_field("peak_limited", "peak_limited", "", use_file,
+        "Ticks so far in which the peak limit acted", &Snapshot::limits, &LimitCounters::peak),
+    tick_field("continuous_limited", "continuous_limited", "", use_file,
+        "Ticks so far in which the limit on continuous force acted", &Snapshot::limits, &LimitCounters::continuous),
+    tick_field("temperature_limited", "temperature_limited", "", use_file,
+        "Ticks so far in which warm motors lowered the ceiling", &Snapshot::limits, &LimitCounters::temperature),
+    tick_field("ramp_limited", "ramp_limited", "", use_file,
+        "Ticks so far in which the force still grew after arming", &Snapshot::limits, &LimitCounters::ramp),
 };
 // clang-format on
 

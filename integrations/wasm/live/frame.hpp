@@ -51,7 +51,7 @@ inline void write_frame(std::span<const Snapshot> ticks, std::uint32_t run, std:
       for (const Snapshot& s : ticks) {
         if constexpr (Field::per_membrane)
           for (std::size_t i = 0; i < s.membrane_count; ++i) put_value(field.get(s.membranes[i]));
-        else if constexpr (std::is_same_v<typename Field::template Value<Snapshot>, double>)
+        else if constexpr (std::is_same_v<typename Field::Value, double>)
           // Times count from the first tick, so that a float keeps them to a nanosecond.
           put_value(field.get(s) - (std::string_view(field.name) == "time" ? first.sample.time : 0));
         else

@@ -16,12 +16,11 @@ struct ExperimentExtra {
 // clang-format off
 /// The fields of a tick and the fields that only an experiment has.
 inline constexpr auto experiment_table = std::tuple_cat(tick_table, std::tuple{
-    detail::tick_field<TickPart::extra>("true_position", "true_{a}_m", "m", use_file,
-        [](auto& e) -> auto& { return e.true_position; },
-        "Where the simulated tip is, without the encoders' steps. From an experiment only"),
-    detail::tick_field<TickPart::extra>("desired", "desired_{a}_m", "m", use_file,
-        [](auto& e) -> auto& { return e.desired; },
-        "Where the simulated hand wants to be. From an experiment only"),
+    tick_field("true_position", "true_{a}_m", "m", use_file,
+        "Where the simulated tip is, without the encoders' steps. From an experiment only",
+        &ExperimentExtra::true_position),
+    tick_field("desired", "desired_{a}_m", "m", use_file,
+        "Where the simulated hand wants to be. From an experiment only", &ExperimentExtra::desired),
 });
 // clang-format on
 
