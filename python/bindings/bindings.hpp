@@ -136,31 +136,29 @@ class Rows {
 struct ThinArguments {
   Needle needle;
   Membrane membrane;
+  ThinLaw law() const { return {needle, membrane}; }
 };
 struct ThickArguments {
   Needle needle;
   Membrane membrane;
   double obliquity = 0;
+  ThickLaw law() const { return {needle, membrane, obliquity}; }
 };
 struct TissueArguments {
   Needle needle;
   Membrane membrane;
   Tissue tissue;
   double obliquity = 0;
+  TissueLaw law() const { return {needle, membrane, tissue, std::cos(obliquity)}; }
 };
-struct GivenThinLaw : ThinLaw, ThinArguments {
-  using Law = ThinLaw;
-  explicit GivenThinLaw(const ThinArguments& a) : Law(a.needle, a.membrane), ThinArguments(a) {}
+template <typename Arguments>
+struct LawOf : decltype(std::declval<Arguments>().law()), Arguments {
+  using Law = decltype(std::declval<Arguments>().law());
+  explicit LawOf(const Arguments& a) : Law(a.law()), Arguments(a) {}
 };
-struct GivenThickLaw : ThickLaw, ThickArguments {
-  using Law = ThickLaw;
-  explicit GivenThickLaw(const ThickArguments& a) : Law(a.needle, a.membrane, a.obliquity), ThickArguments(a) {}
-};
-struct GivenTissueLaw : TissueLaw, TissueArguments {
-  using Law = TissueLaw;
-  explicit GivenTissueLaw(const TissueArguments& a)
-      : Law(a.needle, a.membrane, a.tissue, std::cos(a.obliquity)), TissueArguments(a) {}
-};
+using GivenThinLaw = LawOf<ThinArguments>;
+using GivenThickLaw = LawOf<ThickArguments>;
+using GivenTissueLaw = LawOf<TissueArguments>;
 struct GivenProfileLaw : ProfileLaw {
   using Law = ProfileLaw;
   std::vector<double> depth, lower, upper;

@@ -18,14 +18,6 @@ struct SceneInsertion : Insertion, OneThread {
   nb::tuple arguments() const { return nb::make_tuple(scene); }
 };
 
-TicksObject run(SceneInsertion& insertion, const ArrayLike& positions, const ArrayLike& axis,
-                const ProgressArgument& progress) {
-  return run_in_space(
-      insertion, insertion,
-      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"},
-      positions, axis, progress);
-}
-
 template <typename Get>
 auto of_membranes(const SceneInsertion& insertion, Get get) {
   std::vector<decltype(get(insertion.tick(0)))> values;
@@ -51,12 +43,14 @@ void bind_insertion(nb::module_& m) {
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
   def_init(insertion, &make_insertion, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
   def_steps_in_space<Insertion>(insertion);
-  insertion.def_ro("scene", &SceneInsertion::scene)
-      .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           "Makes n ticks from the present state on.\n\n"
-           "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
-           "progress: a function of the finished share, 0 to 1, or True for a bar. After Ctrl-C some\n"
-           "ticks were made and are lost; `state` goes back to an earlier tick.");
+  insertion.def_ro("scene", &SceneInsertion::scene);
+  def_run_in_space(
+      insertion,
+      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"},
+      "Makes n ticks from the present state on.\n\n"
+      "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Raises ValueError.\n"
+      "progress: a function of the finished share, 0 to 1, or True for a bar. After Ctrl-C some\n"
+      "ticks were made and are lost; `state` goes back to an earlier tick.");
   const Getters get{insertion};
   get("depths", "Depth of the proxy behind each membrane, last tick, m",
       [](auto& i) { return of_membranes(i, [](const auto& tick) { return tick.depth; }); });

@@ -28,26 +28,21 @@ class LineProxy : public OneThread {
       : law_(std::move(law)), coupling_(coupling), period_(period), solver_(solver), proxy_(made()) {}
 
   template <typename Function>
-  auto visit(Function&& function) {
+  auto read(Function&& function) const {
     return std::visit(function, proxy_);
   }
-  template <typename Function>
-  auto visit(Function&& function) const {
-    return std::visit(function, proxy_);
-  }
-
   void reset() {
-    visit([](auto& proxy) { proxy.reset(); });
+    std::visit([](auto& proxy) { proxy.reset(); }, proxy_);
   }
   double step(double depth) {
     must_rest();
     check_places(&depth, 1, "p");
-    return visit([&](auto& proxy) { return proxy.step(depth); });
+    return std::visit([&](auto& proxy) { return proxy.step(depth); }, proxy_);
   }
   double peek(double depth) const {
     must_rest();
     check_places(&depth, 1, "p");
-    return visit([&](auto proxy) { return proxy.step(depth); });
+    return read([&](auto proxy) { return proxy.step(depth); });
   }
   TicksObject run(const ArrayLike& depths, const ProgressArgument& progress) {
     TickColumns columns({"position", "force", "depth", "axial_force", "lower", "upper", "proxy", "phase"});
@@ -57,7 +52,7 @@ class LineProxy : public OneThread {
     Snapshot record{};
     record.membrane_count = 1;
     const Running running(*this);
-    visit([&](auto& proxy) {
+    const auto make_all = [&](auto& proxy) {
       const auto tick = [&](std::size_t i) {
         record.sample.position = {p.data()[i], 0, 0};
         record.force = {proxy.step(p.data()[i]), 0, 0};
@@ -65,15 +60,16 @@ class LineProxy : public OneThread {
         columns.add(record);
       };
       make_ticks(p.size(), tick, progress);
-    });
+    };
+    std::visit(make_all, proxy_);
     return columns.to_ticks(1, true);
   }
 
   std::vector<std::byte> save() const {
-    return visit([](const auto& proxy) { return save_state(proxy); });
+    return read([](const auto& proxy) { return save_state(proxy); });
   }
   bool load(std::span<const std::byte> state) {
-    return visit([&](auto& proxy) { return load_state(proxy, state); });
+    return std::visit([&](auto& proxy) { return load_state(proxy, state); }, proxy_);
   }
   nb::tuple arguments() const { return nb::make_tuple(law_, coupling_, period_, Word(solver_)); }
 
@@ -132,14 +128,6 @@ LineProxy make_line(GivenLaw law, Coupling coupling, double period, const Word<S
   return {std::move(law), coupling, period, solver.at("solver")};
 }
 
-TicksObject run_3d(SpaceProxy& proxy, const ArrayLike& positions, const ArrayLike& axis,
-                   const ProgressArgument& progress) {
-  return run_in_space(
-      proxy, proxy,
-      {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"}, positions,
-      axis, progress);
-}
-
 }  // namespace
 
 void bind_proxy(nb::module_& m) {
@@ -169,7 +157,7 @@ void bind_proxy(nb::module_& m) {
            "Returns position, force, depth, axial_force, lower, upper, proxy and phase, each (n,). Raises ValueError.\n"
            "progress and Ctrl-C: see Insertion.run.");
   const auto of_line = [get = Getters(line)](const char* name, const char* doc, auto read) {
-    get(name, doc, [read](const LineProxy& p) { return p.visit(read); });
+    get(name, doc, [read](const LineProxy& p) { return p.read(read); });
   };
   of_line("force", "f(k), N", [](auto& p) { return p.force(); });
   of_line("offset", "e(k) = q(k) - p(k), m", [](auto& p) { return p.offset(); });
@@ -192,11 +180,12 @@ void bind_proxy(nb::module_& m) {
             "outside.");
   def_repr(space, "<Proxy3d {0.phase.name}: depth {0.depth:g} m, force {0.force} N>");
   def_steps_in_space<Proxy3d<ThickLaw>>(space);
-  space.def("run", &run_3d, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-            "Makes n ticks from the present state on.\n\n"
-            "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
-            "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
-            "progress and Ctrl-C: see Insertion.run.");
+  def_run_in_space(
+      space, {"position", "axis", "force", "depth", "axial_force", "lower", "upper", "proxy", "direction", "phase"},
+      "Makes n ticks from the present state on.\n\n"
+      "p (n, 3): positions, m. axis (n, 3) or (3,): directions of any length but 0. Returns position, axis,\n"
+      "force, proxy, direction (n, 3), and depth, axial_force, lower, upper, phase (n,). Raises ValueError.\n"
+      "progress and Ctrl-C: see Insertion.run.");
   const Getters get{space};
   get("force", "f(k), N", [](auto& p) { return to_array(p.force()); });
   get("offset", "e(k) = q(k) - p(k), m", [](auto& p) { return to_array(p.offset()); });

@@ -140,13 +140,6 @@ struct SceneRivals : RivalInsertion, OneThread {
   nb::tuple arguments() const { return nb::make_tuple(scene, rivals); }
 };
 
-TicksObject run(SceneRivals& self, const ArrayLike& positions, const ArrayLike& axis,
-                const ProgressArgument& progress) {
-  return run_in_space(self, self,
-                      {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"},
-                      positions, axis, progress);
-}
-
 TicksObject experiment(const Scene& scene, const std::vector<AnyRival>& rivals, const AnyMotion& motion,
                        double duration, const DeviceDynamics& plant, const Hand& hand, std::uint64_t seed,
                        const ProgressArgument& progress) {
@@ -211,9 +204,9 @@ void bind_rivals(nb::module_& m) {
       .def(nb::init<Scene, std::vector<AnyRival>>(), nb::arg("scene"), nb::arg("rivals"),
            "rivals: one, or one for each membrane. Raises ConfigurationError or ValueError.")
       .def_ro("scene", &SceneRivals::scene)
-      .def_prop_ro("rivals", [](const SceneRivals& self) { return self.rivals; })
-      .def("run", &run, nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(),
-           "Makes n ticks from the present state on. Arguments as of Insertion.run().");
+      .def_prop_ro("rivals", [](const SceneRivals& self) { return self.rivals; });
+  def_run_in_space(scene, {"position", "axis", "tip", "force", "depth", "axial_force", "lower", "upper", "phase"},
+                   "Makes n ticks from the present state on. Arguments as of Insertion.run().");
   m.def("rival_experiment", &experiment, nb::arg("scene"), nb::arg("rivals"), nb::arg("motion"), nb::arg("duration"),
         nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{}, nb::arg("seed") = 0, nb::kw_only(),
         nb::arg("progress") = nb::none(),

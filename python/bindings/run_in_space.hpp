@@ -1,8 +1,8 @@
 // Many ticks of a model in space, along positions.
 #pragma once
 
-#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 #include "bindings.hpp"
 #include "punctura/servo/record.hpp"
@@ -12,10 +12,10 @@
 
 namespace punctura::bindings {
 
-/// Makes n ticks. model: of one membrane, or of a scene. object: which has the model. fields: those that Ticks has.
+/// Makes n ticks. model: of one membrane, or of a scene; a OneThread. fields: those that Ticks has.
 template <typename Model>
-TicksObject run_in_space(Model& model, OneThread& object, std::initializer_list<std::string_view> fields,
-                         const ArrayLike& positions, const ArrayLike& axis, const ProgressArgument& progress) {
+TicksObject run_in_space(Model& model, const std::vector<std::string_view>& fields, const ArrayLike& positions,
+                         const ArrayLike& axis, const ProgressArgument& progress) {
   constexpr bool has_scene = requires { model.tick(0); };
   Snapshot record{};
   bool uses_axis = true;
@@ -31,7 +31,7 @@ TicksObject run_in_space(Model& model, OneThread& object, std::initializer_list<
   const Rows axes(input(axis, "axis"), n, "axis");
   check_places(p.data(), 3 * n, "p", 3);
   if (uses_axis) axes.check("axis");
-  const OneThread::Running running(object);
+  const OneThread::Running running(model);
   const auto tick = [&](std::size_t i) {
     const Vector3d position(p.data() + 3 * i), direction = axes[i].stableNormalized();
     record.sample.position = to_array(position);
@@ -78,6 +78,17 @@ void def_steps_in_space(nb::class_<T>& cls) {
             return step_in_space(copy, p, axis);
           },
           nb::arg("p"), nb::arg("axis"), "The force of step(p, axis), without changing the state.");
+}
+
+/// Defines run(), with these fields.
+template <typename T>
+void def_run_in_space(nb::class_<T>& cls, const std::vector<std::string_view>& fields, const char* doc) {
+  cls.def(
+      "run",
+      [fields](T& self, const ArrayLike& positions, const ArrayLike& axis, const ProgressArgument& progress) {
+        return run_in_space(self, fields, positions, axis, progress);
+      },
+      nb::arg("p"), nb::arg("axis"), nb::kw_only(), nb::arg("progress") = nb::none(), doc);
 }
 
 }  // namespace punctura::bindings
