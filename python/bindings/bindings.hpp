@@ -180,6 +180,8 @@ void def_repr(nb::class_<T, Options...>& cls, const char* format) {
 std::vector<Problem> problems_of(const Needle& needle, const Membrane& membrane);
 /// Adds a problem if the period of a tick (s) is not between 0 and 1 s.
 void check_period(double period, std::vector<Problem>& problems);
+/// Throws punctura.ConfigurationError if the rate of a device (Hz) is not one that a scene can have.
+void check_rate(double rate);
 /// Throws punctura.ConfigurationError with all problems, if there are any.
 void raise_if(const std::vector<Problem>& problems);
 /// The same for a word that is not allowed.

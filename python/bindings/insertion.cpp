@@ -1,7 +1,6 @@
 // core/punctura/insertion: the complete model of a scene, from position to force.
 #include "punctura/insertion/insertion.hpp"
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/build.hpp"
 #include "run_in_space.hpp"
@@ -25,11 +24,6 @@ auto of_membranes(const SceneInsertion& insertion, Get get) {
   return shown_tuple(values);
 }
 
-SceneInsertion make_insertion(Scene scene) {
-  raise_if(check(scene));
-  return SceneInsertion(scene);
-}
-
 }  // namespace
 
 void bind_insertion(nb::module_& m) {
@@ -41,7 +35,7 @@ void bind_insertion(nb::module_& m) {
   def_state(insertion);
   def_reset(insertion);
   def_repr(insertion, "<Insertion in {0.scene.name!r}: tip {0.tip} m, force {0.force} N>");
-  def_init(insertion, &make_insertion, nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
+  insertion.def(nb::init<Scene>(), nb::arg("scene"), "Raises ConfigurationError with all problems of the scene.");
   def_steps_in_space<Insertion>(insertion);
   insertion.def_ro("scene", &SceneInsertion::scene);
   def_run_in_space(

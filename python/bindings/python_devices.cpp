@@ -10,13 +10,13 @@
 #include "without_lock.hpp"
 
 namespace punctura::bindings {
-namespace {
-
 void check_rate(double rate) {
   std::vector<Problem> problems;
   check_field(field_of(servo_fields, &ServoSettings::rate), rate, "device", problems);
   raise_if(problems);
 }
+
+namespace {
 
 /// An optional column. Throws TypeError and ValueError that name it.
 template <typename T>

@@ -123,17 +123,13 @@ Object<"list[dict[str, typing.Any]]"> kinds() {
   return all;
 }
 
-RivalInsertion built(const Scene& scene, const std::vector<AnyRival>& rivals) {
-  std::vector<Problem> problems;
-  auto made = try_build_rivals(scene, rivals, problems);
-  raise_if(problems);
-  return std::move(*made);
-}
-
 /// A scene with rivals that keeps its arguments.
 struct SceneRivals : RivalInsertion, OneThread {
   SceneRivals(const Scene& given, const std::vector<AnyRival>& given_rivals)
-      : RivalInsertion(built(given, given_rivals)), scene(given), rivals(given_rivals) {}
+      : RivalInsertion(
+            detail::or_throw([&](auto& problems) { return try_build_rivals(given, given_rivals, problems); })),
+        scene(given),
+        rivals(given_rivals) {}
   Scene scene;
   std::vector<AnyRival> rivals;
 
@@ -143,14 +139,13 @@ struct SceneRivals : RivalInsertion, OneThread {
 TicksObject experiment(const Scene& scene, const std::vector<AnyRival>& rivals, const AnyMotion& motion,
                        double duration, const DeviceDynamics& plant, const Hand& hand, std::uint64_t seed,
                        const ProgressArgument& progress) {
-  built(scene, rivals);  // raises all problems
+  const RivalServoStep step = build_rivals(scene, rivals);
   const double rate = scene.servo.rate;
   const std::size_t n = ticks_in(duration, rate);
   const Vector3d axis = unit(scene.membranes.front().inward_normal, "axis");
   return std::visit(
       [&]<typename Motion>(Motion motion) {
-        Experiment<Motion, RivalServoStep> made(build_rivals(scene, rivals), 1 / rate, std::move(motion), axis, plant,
-                                                hand, seed);
+        Experiment<Motion, RivalServoStep> made(step, 1 / rate, std::move(motion), axis, plant, hand, seed);
         return run_experiment(made, n, progress);
       },
       laid_out(motion, seed));

@@ -110,9 +110,7 @@ void bind_runtime(nb::module_& m) {
             SimulatedOptions made;
             made.dynamics = plant;
             made.hand = hand;
-            std::vector<Problem> problems;
-            check_field(field_of(servo_fields, &ServoSettings::rate), rate, "device", problems);
-            raise_if(problems);
+            check_rate(rate);
             made.rate = rate;
             made.seed = seed;
             made.real_time = real_time;
