@@ -18,6 +18,7 @@ from punctura.trace import Segments, Trace
 
 UNEVEN = 0.1  # of the force, by which both ways must differ
 FEWEST = 10  # samples of each way
+PROPORTIONAL = 0.5  # of the growth of a force in proportion to the depth: more is no friction
 SHALLOW = 0.5  # of the way behind the pop: deeper, another wall may resist, and the spring unloads
 
 
@@ -26,6 +27,7 @@ class Ways(NamedTuple):
 
     ratio: float  # out over in; K06 has 1
     difference: float  # N, in less out
+    growth: float  # N/m, of a force that has the same sign on both ways; 0: it is friction that differs
 
 
 def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
@@ -55,15 +57,29 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
         if 2 * min(len(going), len(coming)) < FEWEST or not np.mean(going) > 0:
             return None
         halves.append((float(np.mean(going)), float(-np.mean(coming))))
+    shift = 0.25 * (deep - begin) + begin - float(trace.depth[segments.contact or 0])  # depth of the first half
+    step = 0.5 * (deep - begin)
     ratios = [out / inside for inside, out in halves]
     if abs(ratios[0] - ratios[1]) > 0.5 * max(abs(ratios[0] - 1), abs(ratios[1] - 1), UNEVEN):
         return None  # it grows with the depth, as where the next wall resists on the way in
     going_in, coming_out = np.mean(halves, axis=0)
-    return Ways(float(coming_out / going_in), float(going_in - coming_out))
+    (same, more), (friction, other) = (0.5 * np.array([a - sign * b for a, b in halves]) for sign in (1, -1))
+    grows = (more - same) / same > PROPORTIONAL * step / shift and abs(other - friction) < 0.5 * abs(more - same)
+    growth = float((more - same) / step) if grows else 0.0
+    return Ways(float(coming_out / going_in), float(going_in - coming_out), growth)
 
 
-def way_out(ratio: float) -> tuple[str, str]:
-    """The name of an asymmetric way out, and a sentence with what could make it and what would tell."""
+def way_out(ratio: float, growth: float = 0.0) -> tuple[str, str]:
+    """The name of an asymmetric way out, and a sentence with what could make it and what would tell.
+
+    growth: see Ways.
+    """
+    if growth:
+        return "same_both_ways", (
+            f"A force that is the same on both ways changes with the depth, by {1e-3 * growth:+.2g} N a mm, and K06 "
+            "has none. Crosstalk from a side force, a cable that pulls, or a layer that is pressed together do this. "
+            "To tell: move the needle over the same depths in air, and insert once more with the rig turned half round"
+        )
     words = f"The way out is asymmetric: it resists {max(ratio, 0.0):.2g} times as much as the way in, and K06 has 1"
     if ratio > 1:
         return "barbs", (
@@ -137,6 +153,7 @@ def causes(trace: Trace, segments: Segments, fit: Fit, assessment: Explained) ->
     found = []
     for kind, text, columns in (
         *_ways(of, None if ways is None else ways.ratio),
+        *_same(of),
         *_speeds(of),
         *_again(of),
         *_ripple(of),
@@ -185,6 +202,13 @@ def _ways(of: _Left, measured: float | None) -> Iterator[Tried]:
     if abs(ratio - 1) >= UNEVEN:
         kind, text = way_out(ratio)
         yield kind, text, (column,)
+
+
+def _same(of: _Left) -> Iterator[Tried]:
+    """A force that depends on the depth and has the same sign on both ways."""
+    if (of.kinds == "out").sum() >= 5 and (of.kinds == "in").sum() >= 5:
+        kind, text = way_out(1.0, of.size_of(of.depth))
+        yield kind, text, (of.depth,)
 
 
 def _speeds(of: _Left) -> Iterator[Tried]:

@@ -17,7 +17,7 @@ from punctura.trace import Segments, Trace
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
-UNEQUAL = ("barbs", "asymmetric_way_out")  # causes
+UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +105,6 @@ def _asymmetry(
     slow = fit.noise.slow_and_white()[0] if assessment.ok else 0.0
     if abs(ways.difference) < SURE * max(slow, assessment.blocks.noise):
         return ()
-    kind, text = way_out(ways.ratio)
+    kind, text = way_out(ways.ratio, ways.growth)
     hidden = ". The model explains it by other means: do not trust its walls" if assessment.ok else ""
     return (Cause(kind, 0.0, text + hidden),)

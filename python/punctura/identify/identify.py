@@ -31,6 +31,7 @@ from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned, weighted
 from punctura.identify.slow_noise import with_slow_noise
+from punctura.identify.smeared_force import smeared_rig, smeared_words, without_smeared
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
 from punctura.one_thread import one_thread
@@ -48,7 +49,7 @@ MORE_OPTIMA = (
 class Identification:
     """Membranes identified from a trace. `estimates` have the 95 % intervals, `verdicts` say what cannot be told."""
 
-    trace: Trace  # that was given
+    trace: Trace  # that was fitted: each k-th sample of a force that is smoothed over k samples
     segments: Segments  # its contact, strokes and pops
     fit: Fit  # the best one
     estimates: tuple[Estimate, ...]
@@ -134,6 +135,7 @@ def identify(
 def _identified(
     trace: Trace, needle: Needle, membranes: int | Literal["auto"], report: Callable[[str], None], rig: Rig
 ) -> Identification:
+    given, (trace, filtered) = trace, without_smeared(trace, segment(trace))
     trace, noise = with_quiet_depth(trace, rig.depth_noise)
     known = [RigValue("depth_noise", noise, "m", rig.depth_noise is not None)] if noise else []
     segments = segment(trace)
@@ -165,9 +167,10 @@ def _identified(
             least = final.sse
             better.append((choice.current.model, point.parameters))
             choice.again(point.parameters)
-    if rig.values():
+    wide = smeared_rig(rig, filtered) if filtered else rig
+    if wide.values():
         report("tolerances of the rig")
-        found = with_tolerance(found, final, rig)
+        found = with_tolerance(found, final, wide)
     known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
     late = {one.name: one for one in found if one.name in LATE}
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
@@ -175,7 +178,12 @@ def _identified(
     doubt = doubts(trace, segments, plain, choice.current.extensions, air)
     whitened = final.misfit.whitening is not None
     advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok, whitened)
-    advice = (*noise_not_used(trace, rig.depth_noise), *late_words(late, trace, rig), *advice)
+    advice = (
+        *smeared_words(given, trace),
+        *noise_not_used(trace, rig.depth_noise),
+        *late_words(late, trace, rig),
+        *advice,
+    )
     advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice, *([MORE_OPTIMA] if more else []))
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))
 

@@ -118,10 +118,16 @@ KEPT = 3  # of them
 
 
 def without_a_wall(fit: Fit, segments: Segments) -> Iterator[Parameters]:
-    """The parameters without the wall of the smallest pop, and without the wall that resists least."""
+    """The parameters without the deepest wall, if the needle never came to it; otherwise without the wall of the
+    smallest pop, and without the wall that resists least.
+    """
     parameters = fit.parameters
+    surfaces = parameters.membranes[:, MEMBRANE.index("surface")]
+    if surfaces.max() > fit.misfit.trace.depth.max():
+        yield replace(parameters, membranes=np.delete(parameters.membranes, int(np.argmax(surfaces)), axis=0))
+        return
     pops = TraceModel.pop_depths(parameters.needle, parameters.membranes, parameters.coupling)[0]
-    depths = parameters.membranes[:, MEMBRANE.index("surface")] + pops
+    depths = surfaces + pops
     left_out = {int(np.argmin(_grips(parameters)))}
     if segments.pops:
         smallest = min(segments.pops, key=lambda pop: pop.drop)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import above_air, baseline, slope
-from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, without_spikes
+from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, with_depth_between, without_spikes
 from punctura.trace.segment import Segments, segment, way_to_tissue
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -29,6 +29,8 @@ def examine(trace: Trace) -> Trace:
     if nothing:
         return replace(trace, findings=(*trace.findings, *nothing))
     trace, found = without_spikes(trace)
+    trace, held = with_depth_between(trace)
+    found += held
     if trace.depth[0] - trace.depth.min() > 2 * (trace.depth.max() - trace.depth[0]):
         if _only_withdrawn(trace.force):
             return replace(trace, findings=(*trace.findings, *found, _NO_INSERTION))
@@ -57,7 +59,7 @@ def examine(trace: Trace) -> Trace:
     found += [
         *_units(trace),
         *gaps(trace),
-        *smoothed(trace.force[: (segments.contact or 0) + 1]),
+        *smoothed(*segments.air(trace.force)),
         *cut_off(trace),
         *_drift(trace, segments),
     ]

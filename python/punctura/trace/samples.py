@@ -6,12 +6,14 @@ Also the steps of a sensor that gives only multiples of one.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import baseline, slope, smooth
+from punctura.trace.air import baseline, smooth
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -20,8 +22,10 @@ Array = NDArray[Any]
 DIGITS = 1e-9  # of the range of the values: differences as small are of the computer
 OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
 FEW = 0.05  # of the samples: so many spikes may be left out
-AIR, ALIKE = 40, 0.7  # samples; correlation of neighbouring samples
-SMEARED, CHANCE = 0.25, 3.3  # least correlation of changes that a filter makes; standard deviations of chance
+AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
+NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
+ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
+READINGS, COARSE, MOST = 20, 0.005, 0.9  # held readings, share of the range that is no fine step, share of them
 FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
 
 
@@ -95,6 +99,26 @@ def without_spikes(trace: Trace) -> tuple[Trace, list[Finding]]:
     return trace[kept], [Finding("spikes", f"{text}; they are left out", True)]
 
 
+def with_depth_between(trace: Trace) -> tuple[Trace, list[Finding]]:
+    """The trace with the depth on straight lines between the readings of a slower sensor, whose value was held.
+
+    Such readings stand for a fixed number of samples each. So does a fine step at one speed; it is no held reading.
+    """
+    runs = equal_runs(trace.depth)
+    lengths, steps = np.diff(runs), np.abs(np.diff(trace.depth[runs[:-1]]))
+    held = int(np.median(lengths))
+    if trace.time is None or held < 2 or len(steps) < READINGS:
+        return trace, []
+    usual = float(np.median(steps))
+    fine = usual < COARSE * float(np.ptp(trace.depth)) and np.mean(np.abs(steps / usual - 1) < OFF) > MOST
+    if fine or np.mean(np.abs(lengths - held) <= 1) < MOST:
+        return trace, []
+    fresh = np.concatenate([np.arange(start, end, held) for start, end in pairwise(runs)])
+    between = np.interp(trace.time, trace.time[fresh], trace.depth[fresh])
+    text = f"the depth has a new value only in every {held}th sample; between them it is taken on straight lines"
+    return replace(trace, depth=between), [Finding("depth_held", text, True)]
+
+
 def gaps(trace: Trace) -> Iterator[Finding]:
     """Stretches without samples."""
     if trace.time is not None:
@@ -104,26 +128,33 @@ def gaps(trace: Trace) -> Iterator[Finding]:
             yield Finding("gap", f"{text}; what the needle did there is not known, so the fit can be wrong")
 
 
-def smoothed(air: Array) -> Iterator[Finding]:
-    """Noise of the force in air (n,), N, that is alike in a few neighbouring samples: a filter smears pops as well.
+def smeared(*air: Array) -> int:
+    """Over how many samples a program has smoothed or filled in the force, as its noise in air (n,), N, shows; or 0.
 
-    Slow noise of a sensor is alike, too, but its changes from sample to sample are not. A filter makes changes that
-    are like the next ones, or, a mean of k samples, the reverse of those k samples before.
+    air: before the tissue and behind it. Slow noise of a sensor is alike in neighbouring samples, too, but its changes
+    from sample to sample are not. A filter makes changes that are like the next ones, or, a mean of k samples, the
+    reverse of those k samples before.
     """
-    if len(air) < AIR or not np.ptp(air) > 0:
-        return
-    where = np.linspace(-1, 1, len(air))
-    noise = air - np.mean(air) - where * slope(where, air)[0]  # without a drift
-    alike = np.correlate(noise, noise, "full")[len(noise) - 1 :] / float(noise @ noise)
-    apart = int(np.argmax(alike <= 0))
-    hum = float(alike[apart : len(alike) // 2].max(initial=0.0)) > 0.5
-    if alike[1] <= ALIKE or not 0 < apart <= len(air) // 6 or hum:
-        return
-    change = np.diff(noise)
-    steps = np.correlate(change, change, "full")[len(change) - 1 :] / float(change @ change)
-    chance = max(SMEARED, CHANCE / np.sqrt(len(change)))
-    if steps[1] > chance or steps[2 : len(air) // 6 + 2].min() < -chance:
-        text = f"the noise in air is alike in some {apart} neighbouring samples, as if the force was smoothed or filled"
+    parts = [change - change.mean() for one in air if len(change := np.diff(one)) >= SHORTEST]
+    count = sum(map(len, parts))
+    if count < AIR - 1:
+        return 0
+    most = min(min(map(len, parts)) // 2, count // 6)
+    alike = sum(np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts)
+    if not alike[0] > 0:
+        return 0
+    alike = alike / alike[0]
+    chance, width = CHANCE / np.sqrt(count), int(np.argmin(alike))
+    hum = float(alike[int(np.argmax(alike <= 0)) :].max()) > HUM or alike[width] < -ALIKE
+    reverse = alike[width] < -max(REVERSE, chance) and alike[1] > -NEXT
+    smooth = alike[1] > max(NEXT, chance) or reverse
+    return width if width > 1 and smooth and not hum else 0
+
+
+def smoothed(*air: Array) -> Iterator[Finding]:
+    """A force that a program has smoothed: a filter smears pops as well."""
+    if width := smeared(*air):
+        text = f"the noise in air is alike in some {width} neighbouring samples, as if the force was smoothed or filled"
         advice = "pops are then smeared as well, and look like other walls. Export it as it is measured"
         yield Finding("smoothed", f"{text} in: {advice}")
 

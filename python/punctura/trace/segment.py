@@ -59,6 +59,10 @@ class Segments:
         moving = [stroke for stroke in self.strokes if stroke.kind != "hold"]
         return tuple(b.start for a, b in pairwise(moving) if a.kind != b.kind)
 
+    def air(self, force: Array) -> tuple[Array, Array]:
+        """The force (n,), N, in air: before the contact, and after the last withdrawal."""
+        return force[: (self.contact or 0) + 1], force[len(force) if self.exit is None else self.exit :]
+
     @property
     def insertions(self) -> int:
         """How often the needle goes in."""

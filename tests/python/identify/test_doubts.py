@@ -6,12 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from punctura.identify.air_noise import AirNoise
+from punctura.identify.causes import both_ways, way_out
 from punctura.identify.doubts import doubts
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.model import Model
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.verdict import verdicts
+from punctura.identify.walls import without_a_wall
 from punctura.trace import Trace, segment
 from traces import MEMBRANE, NEEDLE, RATE, force_of, motion, trace
 
@@ -73,8 +75,13 @@ def test_a_trace_of_the_model_itself_is_explained_in_any_white_noise():
             "depth",
             "a wall more, or another law",
         ),
+        (
+            changed(lambda depth, force, inward: force - 15 * np.clip(depth - 5e-3, 0, None)),
+            "same_both_ways",
+            "changes with the depth, by -0.015 N a mm",
+        ),
     ],
-    ids=["barbs", "weak way out", "rate", "ripple", "wall more"],
+    ids=["barbs", "weak way out", "rate", "ripple", "wall more", "crosstalk"],
 )
 def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
     verdict = doubted(made)
@@ -155,6 +162,13 @@ def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless
     assert doubts(made, segment(made), left, ("set",)).causes == ()
 
 
+def test_crosstalk_that_other_walls_explain_is_not_called_an_asymmetric_way_out():
+    made = changed(lambda depth, force, inward: force + 15 * np.clip(depth - 5e-3, 0, None))
+    ways = both_ways(made, segment(made), fitted(made))
+    assert ways.growth == pytest.approx(15, rel=0.3) and way_out(ways.ratio, ways.growth)[0] == "same_both_ways"
+    assert both_ways(changed(pulled(0.5)), segment(made), fitted(made)).growth == 0
+
+
 def test_a_drift_that_is_fitted_makes_no_asymmetric_way_out():
     made = trace(noise=8e-3)
     drifting = replace(made, force=made.force + 0.02 * made.time)
@@ -165,7 +179,7 @@ def test_a_drift_that_is_fitted_makes_no_asymmetric_way_out():
 
 
 @pytest.mark.parametrize(("place", "kind"), [(-20e-3, "wall_in_air"), (20e-3, "wall_beyond")])
-def test_a_wall_that_cannot_be_there_is_named(place, kind):
+def test_a_wall_that_cannot_be_there_is_named_and_one_beyond_is_left_out_first(place, kind):
     made = trace(noise=8e-3)
     start = fitted(made).parameters
     far = default_membrane()
@@ -173,6 +187,9 @@ def test_a_wall_that_cannot_be_there_is_named(place, kind):
     two = replace(start, membranes=np.vstack((start.membranes, far)))
     whole = fit(Misfit(made, two), ("offset",), two)
     assert kind in [one.kind for one in doubts(made, segment(made), whole, ()).causes]
+    if kind == "wall_beyond":
+        (fewer,) = without_a_wall(whole, segment(made))
+        assert np.array_equal(fewer.membranes, start.membranes)
 
 
 def test_the_command_names_it_and_draws_it(punctura, tmp_path):

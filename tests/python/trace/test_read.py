@@ -131,7 +131,7 @@ CHANGES = {
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
     "smoothed": lambda made: {"force_N": np.convolve(np.pad(made.force, 7, "edge"), np.ones(15) / 15, "valid")},
     "cut_off": lambda made: {"force_N": np.minimum(made.force, 0.7 * made.force.max())},
-    "depth_doubtful": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
+    "depth_held": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
 
 
