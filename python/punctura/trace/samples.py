@@ -140,7 +140,7 @@ def smeared(*air: Array) -> int:
     if count < AIR - 1:
         return 0
     most = min(min(map(len, parts)) // 2, count // 6)
-    alike = sum(np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts)
+    alike = np.sum([np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts], axis=0)
     if not alike[0] > 0:
         return 0
     alike = alike / alike[0]
