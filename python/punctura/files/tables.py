@@ -69,6 +69,8 @@ class Schema(Generic[Root]):
             return unknown_key(names[-1], self._root if len(names) == 1 else self._tables[names[0]])
         if kind == "literal_error":
             return f"must be {error['ctx']['expected']}"
+        if kind == "bool_type":
+            return "must be true or false"
         if kind in ("model_type", "model_attributes_type"):
             return f"must be a table, {self.heads.get(str(location[0]), f'[{key}]')}"
         if kind == "list_type":

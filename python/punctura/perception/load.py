@@ -62,6 +62,8 @@ def check_device(protocol: Protocol, limits: ForceLimits) -> None:
 
 def _answers(file: ProtocolFile) -> Iterator[Problem]:
     wanted = ANSWERS[file.task]
+    if not file.question.strip():
+        yield Problem("question", file.question, "must not be empty: it is asked after each trial")
     used: dict[str, str] = {}
     for name, key in file.answers.items():
         if name not in wanted:
@@ -128,6 +130,9 @@ def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
     elif given.scale == "log" and levels[0] <= 0:
         yield Problem("stimulus.levels", levels, 'must be more than 0 with scale = "log"')
     reference = None if given.reference is None else float(given.reference)
+    sides = file.task == "two_intervals" and reference is not None and levels and levels[0] < reference < levels[-1]
+    if given.scale == "log" and file.task != "yes_no" and not sides:
+        yield Problem("stimulus.scale", given.scale, "is for yes_no, and for levels on both sides of a reference")
     by_solver = given.reference_solver is not None
     if file.task == "magnitude" and levels and levels[0] <= 0:
         yield Problem("stimulus.levels", levels, "must be more than 0 for magnitude, whose result is an exponent")
@@ -217,7 +222,11 @@ class _Shown:
         fixed, reason = built(partial(scene.with_values, {path: float(v) for path, v in file.values.items()}))
         if fixed is None:
             self.problems.append(Problem("values", MISSING, reason))
-        self._scene = fixed
+        self._scene, solve = fixed, str(file.stimulus.solve)
+        for end in map(float, file.stimulus.between or ()):
+            if fixed is not None and (reason := built(partial(fixed.with_values, {solve: end}))[1]):
+                self.problems.append(Problem("stimulus.between", end, reason))
+                self._scene = None
         self._made: dict[tuple[float, str | None], Stimulus | None] = {}
         self._unit = next((one.unit for one in scene.fields() if one.path == file.stimulus.variable), "N")
 
@@ -243,6 +252,11 @@ class _Shown:
         if not any(protocol.difference(i) > 0 for i in range(len(shown))):
             reason = f"no level changes the {given.judged} that is judged; choose another variable or judged"
             self.problems.append(Problem("stimulus.levels", levels, reason))
+        if catch is not None and self._file.task == "yes_no":
+            least, found = (min(getattr(one.felt, given.judged) for one in some) for some in (shown, [catch]))
+            if found > least:
+                reason = f"must lack what is asked for: its {given.judged} is {found:.3g}, that of a level {least:.3g}"
+                self.problems.append(Problem("trials.catch_level", catch.level, reason))
         return protocol
 
     def _of(self, key: str, level: float, solver: str | None) -> Stimulus | None:
