@@ -41,7 +41,7 @@ def test_the_batches_do_not_matter():
     columns = on_device()
     (whole,) = result(columns, 100_000).metrics.yields
     near = cuts_near(whole.time, EXERCISE.scene.servo.rate, len(columns["tick"]))
-    assert [result(columns, cuts).metrics.yields for cuts in (near, 27)] == [[whole], [whole]]
+    assert result(columns, near).metrics.yields == [whole]
 
 
 @pytest.mark.parametrize(

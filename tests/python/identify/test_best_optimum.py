@@ -37,7 +37,7 @@ def one_start(monkeypatch):
     monkeypatch.setattr("punctura.identify.search.with_contacts_moved", lambda found: found)
 
 
-@pytest.mark.parametrize("seed", [19, 27])
+@pytest.mark.parametrize("seed", [19, pytest.param(27, marks=pytest.mark.statistics)])
 def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_start, monkeypatch):
     trace, needle = rise(seed)
     reports = []
@@ -81,6 +81,7 @@ def three_walls():
     return Trace(depth, np.asarray(force) + NOISE * rng.normal(size=len(depth)), time), truth
 
 
+@pytest.mark.statistics
 def test_hops_lead_from_a_lesser_optimum_of_three_walls_to_the_truth():
     trace, truth = three_walls()
     kinds = ("surface", "stiffness", "precompression", "friction", "thickness")

@@ -46,6 +46,7 @@ def test_what_no_method_could_tell_is_never_called_identifiable():
     assert not any(row.identifiable for row in hidden)
 
 
+@pytest.mark.statistics
 @pytest.mark.parametrize("given", [Conditions(drift=0.03), Conditions(machine=True, noise=3e-3, force_step=20e-3)])
 def test_intervals_hold_the_truth_with_slow_noise_and_with_steps(given):
     rows = [row for seed in range(1, SOME + 1) for row in tried(seed, given)]

@@ -24,6 +24,7 @@ def two_insertions() -> Trace:
     return Trace(np.interp(time, times, turns).round(7), (np.interp(time, fine, force) + noise).round(4), time)
 
 
+@pytest.mark.statistics
 def test_a_thin_wall_in_a_long_trace_is_found():
     found = identify(two_insertions(), NEEDLE)
     assert found.fit.rmse == pytest.approx(0.01, rel=0.03)

@@ -37,8 +37,7 @@ def test_a_late_model_whose_walls_the_needle_does_not_reach_has_no_derivatives_a
     assert jacobian.shape == (len(trace), 2) and not jacobian.any()
 
 
-@pytest.mark.parametrize("kind", ["lag", "delay"])
-@pytest.mark.parametrize("machine", [True, False])
+@pytest.mark.parametrize(("kind", "machine"), [("lag", True), ("delay", False)])
 def test_a_late_force_is_found_and_the_spring_is_held(kind, machine):
     trace, needle, truth = random_trace(4, Conditions(machine=machine, **{kind: LATE}))
     found = identify(trace, needle)
@@ -69,7 +68,7 @@ def test_a_depth_that_is_late_is_a_negative_delay():
     assert any(one.startswith("The measured depth comes late, by ") for one in found.verdicts)
 
 
-@pytest.mark.parametrize("given", [Conditions(machine=True), Conditions(), Conditions(machine=True, rate=40)])
+@pytest.mark.parametrize("given", [Conditions(), Conditions(machine=True, rate=40)])
 def test_a_prompt_sensor_is_not_called_late(given):
     for seed in (1, 2, 3):
         trace, needle, _ = random_trace(seed, given)

@@ -37,6 +37,7 @@ def test_a_mixture_is_its_correlation_matrix(mixture):
     np.testing.assert_allclose(mixture.smeared(columns), dense @ columns, atol=1e-10)
 
 
+@pytest.mark.statistics
 @pytest.mark.parametrize("mixture", [Mixture(0.0, 1.0), Mixture(1.0, 9.5), Mixture(0.5, 100.0), Mixture(0.9, 300.0)])
 def test_the_told_spread_is_that_of_many_fits(mixture):
     n, rng = 600, np.random.default_rng(2)

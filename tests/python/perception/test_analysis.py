@@ -77,7 +77,7 @@ def test_the_posterior_agrees_with_the_largest_likelihood() -> None:
     assert low < 0.1 < high and high - low < 0.06
 
 
-@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("name", [pytest.param("compares", marks=pytest.mark.statistics), "right", "yes"])
 def test_the_threshold_of_an_observer_is_found(senses: dict[str, Senses], name: str) -> None:
     """20 sessions: intervals of 95 % hold the truth 15 times or less with a probability of 0.3 %."""
     found = coverage(senses[name].protocol, SHARP, 20, 5, senses[name])["threshold"]
@@ -113,6 +113,7 @@ def test_the_just_noticeable_difference_is_that_of_the_noise(senses: dict[str, S
     assert results[0].weber.high == pytest.approx(results[0].jnd.high / 0.41)
 
 
+@pytest.mark.statistics
 def test_a_bias_towards_an_interval_is_neither_a_shift_nor_noise(senses: dict[str, Senses]) -> None:
     """And it is told: the first interval is chosen in most of the trials whose intervals are equal."""
     biased = Simulation(senses["compares"].protocol, replace(SHARP, bias=0.02), senses["compares"])
@@ -124,6 +125,7 @@ def test_a_bias_towards_an_interval_is_neither_a_shift_nor_noise(senses: dict[st
     assert first == pytest.approx(ndtr(0.02 / (0.06 * np.sqrt(2) * 0.318)), abs=0.05)  # the reference drops by 0.318 N
 
 
+@pytest.mark.statistics
 def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> None:
     """Hands that feel less than was planned, and each time something else."""
     protocol = load_protocol(written(tmp_path, SOLVED))
@@ -330,6 +332,7 @@ def test_means_of_people_need_two(senses: dict[str, Senses]) -> None:
     assert together.threshold.high - together.threshold.value == pytest.approx(half, rel=1e-5)
 
 
+@pytest.mark.statistics
 def test_more_trials_and_people_make_smaller_intervals(senses: dict[str, Senses]) -> None:
     rows = power(senses["compares"].protocol, SHARP, [60, 240], [2, 5], 3, 1)
     assert [(row.trials, row.people) for row in rows] == [(60, 2), (60, 5), (240, 2), (240, 5)]

@@ -38,7 +38,7 @@ def wander(rng, ticks, rate):
 
 
 @pytest.mark.parametrize("finer", [1.0, 0.3, 0.1])
-@pytest.mark.parametrize("rate", [600.0, 1000.0, 1600.0, 4000.0])
+@pytest.mark.parametrize("rate", [600.0, 4000.0])
 def test_the_line_fit_is_the_end_of_the_longest_line_that_fits(rate, finer):
     p = wander(np.random.default_rng(7), 1200, rate) * finer
     step = 1.003 * COUNT * finer  # so that no sample lies exactly on the tolerance, where rounding would decide

@@ -100,7 +100,7 @@ def test_e10_judged_with_the_force_of_the_last_tick_a_tip_enters_and_leaves_agai
     """(41) asks whether q*, which holds f(k-1), is outside. On the same motions the exact solver enters less than half
     as often; each entry reads b and U anew.
     """
-    s = random_scenes.scenes(0, 150, 150)
+    s = random_scenes.scenes(0, 60, 100)
     entries = {}
     for solver in ("paper", "exact"):
         tick = getattr(proxy_3d, solver)

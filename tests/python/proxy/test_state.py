@@ -76,7 +76,7 @@ def test_a_state_of_another_membrane_is_refused(change):
 def test_during_run_no_other_thread_can_use_the_object(model):
     run(model, slice(0, 1300))
     kept, copied = model.state, copy.copy(model)
-    long = np.repeat(depths(), 500)
+    long = np.repeat(depths(), 150)
     moves = (long,) if isinstance(model, Proxy1d) else (np.outer(long, [0, -1, 0]), DOWN)
     runner = threading.Thread(target=lambda: model.run(*moves))
     runner.start()

@@ -108,6 +108,7 @@ def test_a_column_that_is_not_there_is_told_with_those_that_are(start):
         open_recording(start().record().path).column("fx")
 
 
+@pytest.mark.statistics
 def test_spoilt_files_crash_nothing_and_give_no_wrong_number():
     done = subprocess.run(
         [sys.executable, TOOLS / "fuzz_recordings.py", "--minutes", "0.05"], capture_output=True, text=True
@@ -115,6 +116,7 @@ def test_spoilt_files_crash_nothing_and_give_no_wrong_number():
     assert done.returncode == 0 and "no wrong number" in done.stdout, done.stdout + done.stderr
 
 
+@pytest.mark.statistics
 def test_killed_at_random_moments_every_file_opens_and_lacks_half_a_second_at_most():
     done = subprocess.run([sys.executable, TOOLS / "soak_recorder.py", "--kills", "8"], capture_output=True, text=True)
     assert done.returncode == 0 and "8 kills, 0 failed, 0 names blocked" in done.stdout, done.stdout + done.stderr

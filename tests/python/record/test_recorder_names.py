@@ -40,7 +40,7 @@ killed()
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 @pytest.mark.parametrize("named", ["named", "unnamed"])
-@pytest.mark.parametrize("at", ["open", "write", "begun"])
+@pytest.mark.parametrize("at", ["open", pytest.param("write", marks=pytest.mark.statistics), "begun"])
 def test_a_kill_before_the_first_tick_blocks_no_name(start, tmp_path, at, named):
     path = tmp_path / "run.parquet"
     done = subprocess.run([sys.executable, "-c", KILLED, path, at, named], capture_output=True, text=True)

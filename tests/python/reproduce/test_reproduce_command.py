@@ -22,6 +22,7 @@ def command(*arguments: str, cwd: Path, **environment: str) -> subprocess.Comple
     )  # fmt: skip
 
 
+@pytest.mark.statistics
 def test_a_second_run_elsewhere_under_other_plot_settings_gives_the_same_files_to_the_byte(
     made: Reproduction, tmp_path: Path
 ) -> None:

@@ -134,6 +134,7 @@ def test_the_command_predicts_an_insertion_and_a_folder(punctura, tmp_path):
     assert done.status == 2 and "rig.depth_noise" in done.stderr and "broken.csv" not in done.stderr
 
 
+@pytest.mark.statistics
 def test_a_rival_that_explains_the_trace_better_is_named_and_only_then(monkeypatch):
     """The second trace is made by a rival: an exponential rise, and a friction that grows with the depth."""
     monkeypatch.setattr("punctura.rivals.comparison.kinds", hold_out.kinds)

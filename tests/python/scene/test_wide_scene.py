@@ -99,8 +99,8 @@ def test_events_and_curves_know_the_law(scene):
 
 def test_an_experiment_continues_from_its_state(scene):
     one, other = (Experiment(scene, Strokes([0, 2e-3, 0], [0, -8e-3, 0])) for _ in range(2))
-    one.run(2000)
+    one.run(300)
     other.state = one.state
-    assert (one.run(500).force == other.run(500).force).all()
+    assert (one.run(100).force == other.run(100).force).all()
     with pytest.raises(ValueError):
         Experiment(load_scene("k06-fig12"), Strokes([0, 2e-3, 0], [0, -8e-3, 0])).state = one.state

@@ -29,7 +29,7 @@ def peak_kilobytes(motion, out):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in kilobytes on Linux only")
-@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+@pytest.mark.parametrize("suffix", [pytest.param(".csv", marks=pytest.mark.statistics), ".parquet"])
 def test_a_motion_five_times_as_long_takes_the_same_memory(write, tmp_path, suffix):
     lines = rows_of(*strokes(100_000), stamp="%.9g")
     short = write([HEADER, *lines], name="short.csv")

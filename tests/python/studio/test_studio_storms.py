@@ -237,6 +237,7 @@ def test_more_connections_with_the_token_than_there_are_places_are_told_so(guard
         assert page.ask(do="take_control")["ok"]
 
 
+@pytest.mark.statistics
 @pytest.mark.skipif(os.name != "posix", reason="limits open files")
 def test_a_recording_begins_and_ends_among_more_connections_than_open_files(tmp_path):
     (tmp_path / "page").mkdir()

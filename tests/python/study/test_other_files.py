@@ -19,8 +19,9 @@ def contents(folder: Path) -> dict[Path, bytes]:
     return {path: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "lock"}
 
 
-@pytest.mark.parametrize("joined", [True, False])
-@pytest.mark.parametrize("mark", [None, b"", b"[]", b'{"digest": 3}'])
+@pytest.mark.parametrize(
+    ("joined", "mark"), [(True, None), (False, None), (False, b""), (False, b"[]"), (True, b'{"digest": 3}')]
+)
 def test_the_files_state_their_plan_without_study_json(
     tmp_path: Path, joined: bool, mark: bytes | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -76,7 +77,7 @@ def test_a_file_that_does_not_state_its_plan_is_refused_by_name(
         lambda table: table.slice(1),
     ],
 )
-@pytest.mark.parametrize("name", ["trials.parquet", "chunk-000001.parquet"])
+@pytest.mark.parametrize("name", [pytest.param("trials.parquet", marks=pytest.mark.statistics), "chunk-000001.parquet"])
 def test_a_file_with_other_columns_or_rows_is_computed_again(
     tmp_path: Path, name: str, change: Callable[[pa.Table], pa.Table], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -76,6 +76,7 @@ def test_the_name_of_a_column_has_a_limit(tmp_path, name):
         read_trace(tmp_path / name)
 
 
+@pytest.mark.statistics
 def test_small_files_with_too_many_numbers_are_refused_before_these_are_read(tmp_path):
     paths = [tmp_path / name for name in ("a.parquet", "a.mat", "structure.mat")]
     parquet(paths[0], columns(2, 55_000_000))
@@ -89,6 +90,7 @@ def test_small_files_with_too_many_numbers_are_refused_before_these_are_read(tmp
     assert "structures of more than 100 MB; that is the limit. Save depth" in printed[2]
 
 
+@pytest.mark.statistics
 def test_a_long_text_file_takes_a_few_times_its_size(tmp_path):
     rows = "".join(f"{0.001 * i:.4f},{1e-5 * i:.6f},{0.1 * (i % 100):.5f}\n" for i in range(40_000))
     (tmp_path / "a.csv").write_text("time_s,depth_mm,force_N\n" + 40 * rows)
@@ -117,6 +119,7 @@ ODD = {  # and what is said of it
 }
 
 
+@pytest.mark.statistics
 def test_what_is_hardly_a_table_takes_little_memory(tmp_path):
     paths = [tmp_path / f"{name}.csv" for name in ODD]
     for path, (data, _) in zip(paths, ODD.values(), strict=True):
