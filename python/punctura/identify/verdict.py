@@ -64,7 +64,19 @@ def verdicts(
     that it is not. whitened: slow noise is part of the last fit.
     """
     unknown = _not_identifiable(estimates, trace, segments) if explained else _no_bounds(estimates)
-    return (*unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
+    return (*_springs(fit), *unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
+
+
+def _springs(fit: Fit) -> Iterator[str]:
+    """What several walls cannot tell: whether they give way one by one, or the rig does, for all of them."""
+    walls, spring = len(fit.parameters.membranes), fit.parameters.get("coupling_stiffness")
+    if walls > 1:
+        yield (
+            f"The model gives each of the {walls} walls a spring of its own, of {spring:.3g} N/m. If holder, needle or "
+            f"sensor give way, the walls share one spring, of up to {walls * spring:.3g} N/m: number, places and "
+            "values of the walls are then not those of the fit. To tell: turn back between two walls and behind the "
+            "last one; a shared spring unloads equally steeply."
+        )
 
 
 def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iterator[str]:
