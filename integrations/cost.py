@@ -55,7 +55,7 @@ def compiled() -> Iterator[str]:
     )
     cs = HERE / "csharp"
     yield (
-        f'need mcs mono-mcs; mcs -optimize -out:"{WORK}/Cost.exe" "{cs}"/*.cs "{cs}"/unity/*.cs "{cs}"/test/*.cs '
+        f'need mcs mono-mcs; mcs -optimize -out:"{WORK}/Cost.exe" "{cs}"/*.cs "{cs}"/test/*.cs '
         f'-main:Test && mono "{WORK}/Cost.exe" "{WORK}" cost'
     )
     yield (
