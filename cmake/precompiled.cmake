@@ -24,11 +24,12 @@ function(punctura_together target group)
   endif()
 endfunction()
 
-# punctura_tests_together(TARGET SOURCE...) does so with up to twelve tests a group, in the given order.
+# punctura_tests_together(TARGET SOURCE...) does so with the tests in two groups, in the given order, for two cores.
 function(punctura_tests_together target)
+  list(LENGTH ARGN all)
   set(count 0)
   foreach(source IN LISTS ARGN)
-    math(EXPR group "${count} / 12")
+    math(EXPR group "2 * ${count} / ${all}")
     math(EXPR count "${count} + 1")
     punctura_together(${target} ${group} ${source})
   endforeach()

@@ -127,7 +127,7 @@ compile() {
   local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
   shift
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
-  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF ${definition:-} &&
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF &&
     nice -n 5 cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
@@ -143,7 +143,10 @@ side_by_side() {
   if [ $a_failed -eq 1 ]; then cat "$logs-b.log" "$logs-a.log"; else cat "$logs-a.log" "$logs-b.log"; fi
   return $((a_failed || b_failed))
 }
-both_tests() { side_by_side "build/$1/tests/core/core_tests" "build/$1/tests/runtime/runtime_tests"; }
+# both_tests PRESET [OPTION]: the tests of core and runtime.
+both_tests() { tests=build/$1/tests option=${2:-} && side_by_side core_tests runtime_tests; }
+core_tests() { "$tests/core/core_tests" $option; }
+runtime_tests() { "$tests/runtime/runtime_tests" $option; }
 
 # The C++ tests, compiled by GCC. The golden forces also run with fused multiply-add allowed.
 step_cpp() {
@@ -158,22 +161,20 @@ step_cpp() {
 }
 check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh build/dev; }
 
-# Compiles the tests, the runtime and each header alone with Clang, for its warnings. Runs the tests under sanitizers
-# with fewer random cases, which reach the same code, because sanitizers are slow. Without AVX-512 on a
-# processor that has none: this code never runs, and -O2 with a sanitizer compiles slowly.
+# Compiles the runtime, tests and each header alone with Clang, for its warnings. Runs the tests under sanitizers with
+# fewer random cases and without numbers whose code other tests reach, because sanitizers are slow. Without AVX: that
+# code differs from the usual one in the width of a vector only, and -O2 with a sanitizer compiles slowly. cpp tests it.
 step_asan() {
-  local definition=-DPUNCTURA_INSTRUCTION_SETS=avx2
-  if grep -qsw avx512dq /proc/cpuinfo; then definition="$definition;avx512"; fi
   compile asan core_tests runtime_tests punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
-  both_tests asan
+  both_tests asan --test-suite-exclude=numbers
 }
-# Without AVX: the threads of a batch run the same code with each instruction set, and -O2 with a sanitizer compiles
-# slowly. cpp and asan test all of them.
+# Without AVX: the threads of a batch run the same code with each instruction set.
 step_tsan() {
   compile tsan runtime_tests || return
   # The sanitizer does not support threads in the child of a fork.
-  tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests" --test-case-exclude='the child of a fork*')
+  tsan_tests=("$root/build/tsan/tests/runtime/runtime_tests" --test-case-exclude='the child of a fork*'
+    --test-suite-exclude=numbers)
   export PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   # The sanitizer cannot start if the kernel randomizes addresses too much; setarch -R turns that off.
   local listed
@@ -269,14 +270,16 @@ step_page() {
 # The documentation: every code block runs, and the site builds without a warning.
 step_docs() { side_by_side docs_snippets docs_site; }
 docs_snippets() {
+  if has_run cpp; then export PUNCTURA_FAKES=$root/build/dev/tests/runtime/fakes; fi
   PYTHONPATH=tests/docs:docs/site python -m pytest -n 2 --dist loadfile -p snippets \
     tests/docs README.md CONTRIBUTING.md examples/README.md docs
 }
 docs_site() {
-  # The step before has compiled the examples.
-  case " $(echo $steps) " in *" examples "*) export PUNCTURA_EXAMPLES=$root/build/dev/examples ;; esac
+  if has_run examples; then export PUNCTURA_EXAMPLES=$root/build/dev/examples; fi
   python docs/site/build.py
 }
+# has_run STEP: a step before has compiled what build/dev has for it.
+has_run() { [ -n "$(chosen_of "$1")" ]; }
 
 # Runs every example in C++. The gallery of the documentation runs those in Python, and draws their results.
 step_examples() {

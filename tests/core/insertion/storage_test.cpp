@@ -23,7 +23,7 @@ using Site = SiteOf<ThickLaw>;
 using Fixed = InsertionOf<ThickLaw, SampledCoupling<double>, FixedStorage<3>>;
 static_assert(std::is_trivially_copyable_v<FixedVector<Proxy3d<ThickLaw>, 3>>);
 
-const SampledCoupling<double> coupling({400, 1}, T);
+const SampledCoupling<double> sampled({400, 1}, T);
 
 std::vector<Site> walls(std::size_t n) {
   std::vector<Site> sites;
@@ -56,10 +56,10 @@ TEST_CASE("with FixedStorage, forces and states have the same bits as with HeapS
     for (Conditioning conditioning : {Conditioning::low_pass, Conditioning::line_fit}) {
       const auto sites = walls(3);
       const auto before = allocations();
-      Fixed fixed(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
-      Fixed again(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
+      Fixed fixed(sites, sampled, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
+      Fixed again(sites, sampled, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
       CHECK(allocations() == before);
-      InsertionOf<ThickLaw> heap(sites, coupling, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
+      InsertionOf<ThickLaw> heap(sites, sampled, T, Solver::exact, 300, direction, conditioning, 0.055e-3);
       Noise noise(140);
       for (double depth : random_motion(noise, 4000, 10e-3, T)) {
         const Vector3d p{0, -depth, 1e-3 * depth};
@@ -75,9 +75,9 @@ TEST_CASE("with FixedStorage, forces and states have the same bits as with HeapS
 TEST_CASE("too many sites or a too high rate abort the program") {
   const auto four = walls(4);
   const auto one = walls(1);
-  CHECK(aborts([&] { Fixed insertion(four, coupling, T); }));
-  CHECK(aborts([&] { Fixed insertion(one, coupling, 1 / 8000.0, Solver::exact, 0, Direction::motion); }));
+  CHECK(aborts([&] { Fixed insertion(four, sampled, T); }));
+  CHECK(aborts([&] { Fixed insertion(one, sampled, 1 / 8000.0, Solver::exact, 0, Direction::motion); }));
 #ifndef _WIN32
-  CHECK(!aborts([&] { Fixed insertion(walls(3), coupling, T); }));
+  CHECK(!aborts([&] { Fixed insertion(walls(3), sampled, T); }));
 #endif
 }

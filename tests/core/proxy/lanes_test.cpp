@@ -208,7 +208,8 @@ void compare_in_space(Noise& noise, Seen& seen) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("on a line, each of four lanes has the bits of a single run", Scalar, double, float) {
+TEST_CASE_TEMPLATE("on a line, each of four lanes has the bits of a single run" * doctest::test_suite("numbers"),
+                   Scalar, double, float) {
   Noise noise(120);
   Seen paper, exact;
   for (int k = 0; k < cases(20); ++k) {
@@ -224,7 +225,8 @@ TEST_CASE_TEMPLATE("on a line, each of four lanes has the bits of a single run",
   }
 }
 
-TEST_CASE_TEMPLATE("in space, each of four lanes has the bits of a single run", Scalar, double, float) {
+TEST_CASE_TEMPLATE("in space, each of four lanes has the bits of a single run" * doctest::test_suite("numbers"), Scalar,
+                   double, float) {
   Noise noise(121);
   Seen paper, exact;
   for (int k = 0; k < cases(40); ++k) {

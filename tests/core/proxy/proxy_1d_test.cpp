@@ -21,7 +21,9 @@ TEST_CASE("the forces of K06 Fig. 10 are correct: peak, plateau after the pop, w
   CHECK(highest == doctest::Approx(0.41024));
 }
 
-TEST_CASE_TEMPLATE("a device at rest has a constant force, bit for bit, for a million ticks", L, ThickLaw, ThickLawF) {
+TEST_CASE_TEMPLATE("a device at rest has a constant force, bit for bit, for a million ticks" *
+                       doctest::test_suite("numbers"),
+                   L, ThickLaw, ThickLawF) {
   using Scalar = typename L::Scalar;
   const L law({Scalar(1.08e-3), Scalar(0.28)}, {Scalar(570), Scalar(0.41), Scalar(0.2), Scalar(1e-4)});
   for (Solver solver : {Solver::paper, Solver::exact}) {

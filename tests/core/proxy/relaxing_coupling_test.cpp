@@ -105,7 +105,8 @@ TEST_CASE("at a constant rate of the offset, the branches have the force of the 
   }
 }
 
-TEST_CASE("without force, the offset is the one that makes the coupling's force zero, and no number is denormal") {
+TEST_CASE("without force, the offset is the one that makes the coupling's force zero, and no number is denormal" *
+          doctest::test_suite("numbers")) {
   const Relaxing coupling({400, 1}, two_branches, relaxing_T);
   Relaxing::Memory<Vector3d> memory{};
   Vector3d e(1e-3, -2e-3, 5e-4);

@@ -119,7 +119,8 @@ TEST_CASE("the rms force of each 10 s is within the rating for any input, runs a
   CHECK(worst.rms() > 0.7);
 }
 
-TEST_CASE("the rms force is within the rating for late ticks, a slow device and all permitted gaps") {
+TEST_CASE("the rms force is within the rating for late ticks, a slow device and all permitted gaps" *
+          doctest::test_suite("numbers")) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> share(0, 1);
   for (const double slowest : {1.0, 1.05, 2.0, 3.2, 10.0, 30.0}) {  // times the period; 32 is 20 ms
@@ -168,7 +169,7 @@ TEST_CASE("the ramp is not reported while the model force is zero") {
   CHECK(limiter.limit() == Limit::ramp);
 }
 
-TEST_CASE("the rms force is within the rating for limits of any size") {
+TEST_CASE("the rms force is within the rating for limits of any size" * doctest::test_suite("numbers")) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-2, 2);
   for (int i = 0; i < at_most(50); ++i) {
@@ -320,7 +321,7 @@ void compare_with_plain_limits(std::mt19937& random) {
 }
 }  // namespace
 
-TEST_CASE("the force and the ceiling are those of the plain formulas, bit for bit") {
+TEST_CASE("the force and the ceiling are those of the plain formulas, bit for bit" * doctest::test_suite("numbers")) {
   std::mt19937 random(11);
   for (int i = 0; i < cases(20); ++i) {
     compare_with_plain_limits<double>(random);

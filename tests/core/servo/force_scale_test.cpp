@@ -19,7 +19,7 @@ using namespace punctura::test;
 namespace {
 
 /// A tip that waits in front until the ramp is over, and then moves in and out, deep through all walls.
-double strokes(std::uint64_t k) {
+double stroke_depth(std::uint64_t k) {
   return k < 1600 ? 1e-3 : 1e-3 - 8e-3 * (1 - std::cos(2e-3 * static_cast<double>(k - 1600)));
 }
 
@@ -34,8 +34,8 @@ TEST_CASE("a scale of 1 keeps every bit of the force") {
   step.arm();
   bare.arm();
   for (std::uint64_t k = 0; k < 12000; ++k) {
-    step.step(reading(k, strokes(k)));
-    bare.step(reading(k, strokes(k)));
+    step.step(reading(k, stroke_depth(k)));
+    bare.step(reading(k, stroke_depth(k)));
     REQUIRE(step.snapshot().force == bare.snapshot().force);
     if (k > 1600) REQUIRE(step.snapshot().force == step.snapshot().model_force);
   }
@@ -47,8 +47,8 @@ TEST_CASE("the device gets the scale's share of the force, and the model does no
   part.arm();
   double strongest = 0;
   for (std::uint64_t k = 0; k < 12000; ++k) {
-    const Snapshot& a = whole.step(reading(k, strokes(k)));
-    const Snapshot& b = part.step(reading(k, strokes(k)));
+    const Snapshot& a = whole.step(reading(k, stroke_depth(k)));
+    const Snapshot& b = part.step(reading(k, stroke_depth(k)));
     REQUIRE(a.model_force == b.model_force);
     REQUIRE(b.force_scale == 0.3);
     if (k > 1600) REQUIRE(force_of(b) == 0.3 * model_of(b));
@@ -57,7 +57,8 @@ TEST_CASE("the device gets the scale's share of the force, and the model does no
   CHECK(strongest > 0.3);
 }
 
-TEST_CASE("a scale never makes a force larger and never turns it, whatever the limits do") {
+TEST_CASE("a scale never makes a force larger and never turns it, whatever the limits do" *
+          doctest::test_suite("numbers")) {
   Noise noise(11);
   for (int run = 0; run < cases(40); ++run) {
     Scene scene = three_walls(between(noise, 0.01, 1));
@@ -65,7 +66,7 @@ TEST_CASE("a scale never makes a force larger and never turns it, whatever the l
     auto step = build(scene, {}, {between(noise, 0.3, 4), between(noise, 0.2, 1)});
     step.arm();
     for (std::uint64_t k = 0; k < 8000; ++k) {
-      const Snapshot& s = step.step(reading(k, strokes(k)));
+      const Snapshot& s = step.step(reading(k, stroke_depth(k)));
       const double most = scene.display.force_scale * model_of(s).norm();
       REQUIRE(force_of(s).norm() <= most * (1 + 1e-12));
       REQUIRE(force_of(s).norm() <= s.ceiling * (1 + 1e-12));
@@ -94,7 +95,7 @@ TEST_CASE("another scale while somebody holds the device fades in without a jump
   CHECK((force_of(before) - 0.25 * model_of(before)).norm() < 1e-12);
 }
 
-TEST_CASE("the largest force is that of all membranes together, at the worst depth") {
+TEST_CASE("the largest force is that of all membranes together, at the worst depth" * doctest::test_suite("numbers")) {
   Noise noise(12);
   for (int run = 0; run < cases(100); ++run) {
     Scene scene = paper_scene();
@@ -128,7 +129,8 @@ TEST_CASE("the largest force is that of all membranes together, at the worst dep
   }
 }
 
-TEST_CASE("with the automatic scale no limit ever cuts a needle that goes straight in, however slowly") {
+TEST_CASE("with the automatic scale no limit ever cuts a needle that goes straight in, however slowly" *
+          doctest::test_suite("numbers")) {
   Scene scene = three_walls(1, true);
   for (PlacedMembrane& placed : scene.membranes) placed.membrane.stiffness *= 4;
   auto step = build(scene);
@@ -179,15 +181,15 @@ TEST_CASE("a saved step continues with the scaled force, and a step with another
   auto step = build(three_walls(0.3));
   step.arm();
   std::uint64_t k = 0;
-  for (; k < 4000; ++k) step.step(reading(k, strokes(k)));
+  for (; k < 4000; ++k) step.step(reading(k, stroke_depth(k)));
   const auto bytes = save_state(step);
   auto other = build(three_walls(0.4));
   CHECK(!load_state(other, bytes));
   auto same = build(three_walls(0.3));
   REQUIRE(load_state(same, bytes));
   for (; k < 5000; ++k) {
-    step.step(reading(k, strokes(k)));
-    same.step(reading(k, strokes(k)));
+    step.step(reading(k, stroke_depth(k)));
+    same.step(reading(k, stroke_depth(k)));
     REQUIRE(step.snapshot().force == same.snapshot().force);
   }
 }

@@ -238,7 +238,8 @@ TEST_CASE("a run starts with the budget that the last run has left") {
   CHECK(next.spent() == step.spent());
 }
 
-TEST_CASE("many ticks allocate no memory, and two runs have the same force, bit for bit") {
+TEST_CASE("many ticks allocate no memory, and two runs have the same force, bit for bit" *
+          doctest::test_suite("numbers")) {
   auto scene = paper_scene();
   scene.membranes.push_back({"second", paper_membrane(0.5e-3), {0, -3e-3, 0}, {0, -1, 0}});
   for (Solver solver : {Solver::paper, Solver::exact}) {

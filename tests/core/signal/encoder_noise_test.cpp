@@ -85,7 +85,8 @@ TEST_CASE("a dither of one count changes the force by 0.20 N rms, behind K06's f
   }
 }
 
-TEST_CASE("at rest, the line fit leaves at most 0.016 N rms from tick to tick for every dither") {
+TEST_CASE("at rest, the line fit leaves at most 0.016 N rms from tick to tick for every dither" *
+          doctest::test_suite("numbers")) {
   for (const Solver solver : {Solver::exact, Solver::paper})
     for (const Dither kind : all_dithers) {
       const Scene scene = scene_with(Conditioning::line_fit, solver);
@@ -96,7 +97,8 @@ TEST_CASE("at rest, the line fit leaves at most 0.016 N rms from tick to tick fo
     }
 }
 
-TEST_CASE("where three or five membranes hold the needle, the line fit leaves at most 0.016 N rms, too") {
+TEST_CASE("where three or five membranes hold the needle, the line fit leaves at most 0.016 N rms, too" *
+          doctest::test_suite("numbers")) {
   // The coupling of the ready scene venipuncture, and a stiffer one. While all membranes stick, their forces are equal.
   struct Hold {
     Coupling coupling;
@@ -129,7 +131,8 @@ TEST_CASE("a slow slide behind the line fit has at most 5 mN of ripple from 0.3 
   }
 }
 
-TEST_CASE("the line fit changes the pop by at most 2 %, at every speed and encoder phase") {
+TEST_CASE("the line fit changes the pop by at most 2 %, at every speed and encoder phase" *
+          doctest::test_suite("numbers")) {
   for (const Solver solver : {Solver::exact, Solver::paper})
     for (const double speed : {5e-3, 10e-3, 20e-3}) {
       const double right = pop(scene_with(Conditioning::low_pass, solver, 300, 1e-4), speed, true);

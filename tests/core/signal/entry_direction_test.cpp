@@ -32,7 +32,8 @@ TEST_CASE("for a fast tip, the direction is exactly the displacement of the last
   }
 }
 
-TEST_CASE("for a slow tip, the direction is that of the last 0.2 mm of path, within one degree") {
+TEST_CASE("for a slow tip, the direction is that of the last 0.2 mm of path, within one degree" *
+          doctest::test_suite("numbers")) {
   Noise noise(40);
   const double T = 1 / 1600.0;
   for (int i = 0; i < at_most(20); ++i) {
@@ -59,7 +60,7 @@ TEST_CASE("the direction is zero before the tip moves and after a reset") {
   CHECK(direction.step({5, 5, 5}) == Vector3d::Zero());
 }
 
-TEST_CASE("a path of many metres does not lose precision in float") {
+TEST_CASE("a path of many metres does not lose precision in float" * doctest::test_suite("numbers")) {
   EntryDirection<float> direction(1 / 1600.0f);
   for (int k = 0; k < 2000000; ++k) direction.step({0.05f * std::sin(0.01f * static_cast<float>(k % 628)), 0, 0});
   Vector3<float> found;

@@ -61,7 +61,7 @@ double trace_share_of_wrong(const TraceRun& run, const TraceMembrane& membrane, 
 
 }  // namespace
 
-TEST_CASE("derivatives along a trace are those of central differences") {
+TEST_CASE("derivatives along a trace are those of central differences" * doctest::test_suite("numbers")) {
   const TraceRun run;
   const TraceCoupling stiff{3000, 0.5, 0, 1, 0, 1}, relaxing{2000, 0.5, 800, 0.6, 400, 5};
   for (const TraceMembrane& membrane : {trace_k06, trace_tissue, trace_thick})
@@ -89,7 +89,7 @@ TEST_CASE("the force of a hold relaxes to the spring's own") {
   CHECK(force[399] > 0);
 }
 
-TEST_CASE("the force is a continuous function of the surface, also at the pop") {
+TEST_CASE("the force is a continuous function of the surface, also at the pop" * doctest::test_suite("numbers")) {
   const TraceRun run;
   TraceMembrane moved = trace_k06;
   moved[4] = 0.1e-3;

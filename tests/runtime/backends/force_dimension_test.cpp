@@ -53,7 +53,8 @@ std::vector<Record> play(FakeRig& rig, double rate) {
 
 }  // namespace
 
-TEST_CASE("through the fake library, recorded positions give the same forces as offline, bit for bit") {
+TEST_CASE("through the fake library, recorded positions give the same forces as offline, bit for bit" *
+          doctest::test_suite("numbers")) {
   for (double rate : {1600.0, 4000.0}) {
     CAPTURE(rate);
     auto settings = upright();
@@ -77,7 +78,8 @@ TEST_CASE("through the fake library, recorded positions give the same forces as 
   }
 }
 
-TEST_CASE("through the fake library, the force-position curve equals the offline experiment within one tick's motion") {
+TEST_CASE("through the fake library, the force-position curve equals the offline experiment within one tick's motion" *
+          doctest::test_suite("numbers")) {
   for (double rate : {1600.0, 4000.0}) {
     CAPTURE(rate);
     auto settings = upright();
@@ -245,7 +247,7 @@ TEST_CASE("forces above the motors' limit are no fault; they are counted and rep
                     [](const auto& s) { return s.find("whole force") < s.size(); }));
 }
 
-TEST_CASE("a tick allocates no memory") {
+TEST_CASE("a tick allocates no memory" * doctest::test_suite("numbers")) {
   auto settings = upright();
   settings.repeat_every = 7;
   FakeRig rig(settings);

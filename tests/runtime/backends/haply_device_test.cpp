@@ -31,8 +31,8 @@ void until(const std::function<bool()>& done) {
 
 }  // namespace
 
-TEST_CASE(
-    "K06 Fig. 10 through the service equals the offline experiment, bit for bit, with both forms of the command") {
+TEST_CASE("K06 Fig. 10 through the service equals the offline experiment, bit for bit, with both forms of the command" *
+          doctest::test_suite("numbers")) {
   const std::uint64_t ticks = 5000;
   const std::pair<const char*, const char*> generations[] = {{"3.5.2", "vector"}, {"3.4.9", "values"}, {"", "values"}};
   for (const auto& generation : generations) {

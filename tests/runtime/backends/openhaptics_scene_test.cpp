@@ -54,7 +54,8 @@ double largest_force(const Run& r) {
 
 }  // namespace
 
-TEST_CASE("the HD device gets the forces of the core at the same positions, bit for bit, and they reach the motors") {
+TEST_CASE("the HD device gets the forces of the core at the same positions, bit for bit, and they reach the motors" *
+          doctest::test_suite("numbers")) {
   for (double rate : {1600.0, 1000.0, 2000.0}) {
     const Run r = run(rate, false);
     ServoStep offline = build(r.scene, {}, r.limits);
@@ -91,7 +92,8 @@ TEST_CASE("hand, device and scene behave through the HD library as they do offli
   CHECK(force_error < 1e-9);
 }
 
-TEST_CASE("on an exact path, the force equals the offline curve within the motion of one tick; sliding, also the law") {
+TEST_CASE("on an exact path, the force equals the offline curve within the motion of one tick; sliding, also the law" *
+          doctest::test_suite("numbers")) {
   for (double rate : {1600.0, 1000.0}) {
     const Run r = run(rate, true);
     auto insertion = build_insertion(r.scene);
@@ -116,7 +118,7 @@ TEST_CASE("on an exact path, the force equals the offline curve within the motio
   }
 }
 
-TEST_CASE("a tick allocates no memory") {
+TEST_CASE("a tick allocates no memory" * doctest::test_suite("numbers")) {
   reset_fake_hd();
   ServoLoop loop(std::make_shared<OpenHapticsDevice>(with_fake_hd()), paper_scene(), patient());
   loop.arm();

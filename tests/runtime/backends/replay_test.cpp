@@ -60,7 +60,8 @@ bool same_forces(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b)
 }
 }  // namespace
 
-TEST_CASE("a replay through the recorded scene gives the recorded forces, bit for bit") {
+TEST_CASE("a replay through the recorded scene gives the recorded forces, bit for bit" *
+          doctest::test_suite("numbers")) {
   SimulatedOptions options;
   options.real_time = false;
   options.ticks = 5000;

@@ -156,7 +156,8 @@ TEST_CASE("trials with a hand have the bits of trials alone with each instructio
   }
 }
 
-TEST_CASE("trials through measured tissue have the bits of trials alone with each instruction set") {
+TEST_CASE("trials through measured tissue have the bits of trials alone with each instruction set" *
+          doctest::test_suite("numbers")) {
   const auto trials = static_cast<std::size_t>(test::at_most(41));
   for (const Solver solver : {Solver::paper, Solver::exact})
     for (const double relaxing : {0.0, 300.0}) {

@@ -35,7 +35,8 @@ std::array<double, 2> felt_peaks(double rest) {
 
 }  // namespace
 
-TEST_CASE("the hand feels that a hole heals: the second peak grows with the rest before it") {
+TEST_CASE("the hand feels that a hole heals: the second peak grows with the rest before it" *
+          doctest::test_suite("numbers")) {
   double last = 0;
   for (const double rest : {0.6, 1.5, 3.0, 9.0}) {
     CAPTURE(rest);

@@ -43,7 +43,7 @@ TEST_CASE("a loop gives the force of its scene, tick by tick, after start and ar
   CHECK(armed.loop->latest().state == ServoState::active);
 }
 
-TEST_CASE("a tick allocates no memory, whatever other threads request of the loop") {
+TEST_CASE("a tick allocates no memory, whatever other threads request of the loop" * doctest::test_suite("numbers")) {
   Cranked c;
   c.loop->listen(64);
   c.into_tissue();

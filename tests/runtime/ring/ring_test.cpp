@@ -32,10 +32,10 @@ bool whole(const Snapshot& s) {
   return same;
 }
 
-using Ticks = std::vector<std::uint64_t>;
+using TickNumbers = std::vector<std::uint64_t>;
 
-Ticks taken(SnapshotRing& ring, std::size_t limit) {
-  Ticks got;
+TickNumbers taken(SnapshotRing& ring, std::size_t limit) {
+  TickNumbers got;
   const std::size_t n = ring.pop(limit, [&](const Snapshot& s) {
     CHECK(whole(s));
     got.push_back(s.tick);
@@ -49,8 +49,8 @@ Ticks taken(SnapshotRing& ring, std::size_t limit) {
 TEST_CASE("a ring returns the records in the order in which they were put in") {
   SnapshotRing ring(40, 1);
   for (std::uint64_t i = 0; i < 3; ++i) CHECK(ring.push(numbered(i, 1)));
-  CHECK(taken(ring, 2) == Ticks{0, 1});
-  CHECK(taken(ring, 9) == Ticks{2});
+  CHECK(taken(ring, 2) == TickNumbers{0, 1});
+  CHECK(taken(ring, 9) == TickNumbers{2});
   CHECK(taken(ring, 9).empty());
   CHECK(ring.lost() == 0);
 }
@@ -71,7 +71,7 @@ TEST_CASE("a full ring drops the new record and counts it; it holds as many reco
   SnapshotRing ring(100, 2);
   for (std::uint64_t i = 0; i < 110; ++i) ring.push(numbered(i, 2));
   CHECK(ring.lost() == 10);
-  const Ticks got = taken(ring, 999);
+  const TickNumbers got = taken(ring, 999);
   REQUIRE(got.size() == 100);
   CHECK(got.front() == 0);
   CHECK(got.back() == 99);
@@ -81,7 +81,7 @@ TEST_CASE("a ring made for few membranes also takes a snapshot with the largest 
   SnapshotRing ring(1, 0);
   for (std::uint64_t i = 0; i < 100; ++i) {
     CHECK(ring.push(numbered(i, i % 2 ? max_membranes : 3)));
-    CHECK(taken(ring, 9) == Ticks{i});
+    CHECK(taken(ring, 9) == TickNumbers{i});
   }
   CHECK(ring.lost() == 0);
 }
