@@ -19,9 +19,11 @@ from pydantic import BaseModel
 
 from punctura import Phase, PuncturaError, Scene
 from punctura._core import Fault, ServoState, describe
+from punctura.defects import explain
+from punctura.errors import sentence_of
 from punctura.events import crossing
 from punctura.perception.course import Trial, counted
-from punctura.perception.felt import READY_S, Spoilt, felt_of
+from punctura.perception.felt import READY_S, felt_of
 from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import Session as Answers
@@ -95,7 +97,7 @@ class PerceptionSitting:
         try:
             self._open()
         except (PuncturaError, OSError) as bad:
-            self._say(str(bad), GO, self._consented)
+            self._say(f"{sentence_of(bad)}.", GO, self._consented)
         else:
             self._welcome()
 
@@ -125,15 +127,14 @@ class PerceptionSitting:
             why = f": {describe(fault)}" if fault != Fault.none else ""
             self._say(f"The force is off{why}. It comes back when you go on.", GO, lambda _: self._armed())
             return
-        if self._attempt == 0:  # a kill may have ended this trial before its answer
-            self._discard()
         self._attempt += 1
         self._interval = 0
         about = {"participant": self._participant, "trial": trial.number}
         try:
+            self._discard()
             studio.begin_activity(self, self._scene(), None, self._name(), about)
         except (PuncturaError, OSError) as bad:
-            self._again(str(bad))
+            self._again(sentence_of(bad))
         else:
             self._explore()
 
@@ -148,10 +149,10 @@ class PerceptionSitting:
         return f"{self._participant}-{self._trial.number:04d}-{self._attempt}"
 
     def _discard(self) -> None:
-        """The recordings of this trial."""
+        """The recordings of this trial: of attempts before, and what a kill left of one. Raises OSError."""
         assert self._trial
         for file in recordings(self._folder, self._participant, f"{self._trial.number:04d}"):
-            file.unlink()
+            file.unlink(missing_ok=True)  # one that is being finished gets another name
 
     def _scene(self) -> Loaded:
         assert self._trial
@@ -204,8 +205,8 @@ class PerceptionSitting:
             why = reason or status.words
             try:
                 found = [] if why else felt_of(recording, trial.intervals, self._protocol.membrane)
-            except (Spoilt, PuncturaError, OSError, ValueError) as bad:
-                why = str(bad)
+            except Exception as bad:
+                why = explain(bad)
             self._studio.jobs.post(lambda: self._again(why) if why else self._ask(found))
 
         if not self._studio.recording:  # the ticks have ceased, and ended the run
@@ -222,7 +223,6 @@ class PerceptionSitting:
 
     def _again(self, why: str) -> None:
         self._studio.run.loop.pause()  # the run may be the one before, which began again
-        self._discard()
         words = f"The trial is repeated: {why.rstrip('. ')}. {WAIT}"
         self._say(words, GO, lambda _: self._armed())
 
@@ -236,7 +236,7 @@ class PerceptionSitting:
         try:
             self._answers.add(trial, answer, felt, [f"{self._name()}.parquet"])
         except (PuncturaError, OSError) as bad:
-            self._say(f"{bad}.", GO, lambda _: self._save(answer, felt))
+            self._say(f"{sentence_of(bad)}.", GO, lambda _: self._save(answer, felt))
             return
         if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
             self._remark = "Right. " if counted(protocol, trial.position, answer) else "That was another one. "

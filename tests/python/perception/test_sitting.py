@@ -155,9 +155,9 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         person.goes_through(depth=0.001)
         person.goes_through("Not through yet: push deeper.")
         person.reads("repeated: the force was cut: peak limit. Hold")
-        assert list((tmp_path / "out").glob("*.parquet*")) == [others]
         person.answers("Go on")
         person.reads("push")
+        assert {file.name[:10] for file in (tmp_path / "out").glob("*.parquet*")} == {"P01-0000-2", others.name[:10]}
         assert person.page.ask(do="trip_fault")["ok"]
         person.reads("repeated: ")
         server.session.bench.settings = Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED))
@@ -178,6 +178,32 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         person.answers("Go on")
         person.reads("Trial 2")
     assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes"]
+
+
+def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_answer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left = tmp_path / "out" / "P01-0001-7.parquet"
+    left.mkdir(parents=True)
+    with sat(tmp_path, YES) as (person, _):
+        person.reads("The session begins.")
+        person.answers("Go on")
+        with monkeypatch.context() as now:
+            now.setattr("punctura.studio.sitting.felt_of", lambda *_: [][0])
+            person.goes_through()
+            person.reads("repeated: a defect")
+        person.answers("Go on")
+        person.goes_through()
+        person.reads("Did it pop?")
+        person.answers("yes")
+        person.reads(f"repeated: {left}")
+        left.rmdir()
+        person.answers("Go on")
+        person.goes_through("Trial 2")
+        person.reads("Did it pop?")
+        person.answers("no")
+        person.reads("Trial 3")
+    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes", "no"]
 
 
 def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
