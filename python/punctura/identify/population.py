@@ -16,8 +16,11 @@ def population(rows: Sequence[ParameterRecord]) -> list[PopulationRow]:
     """One row a parameter: the mean over traces, the spread between traces, and how far single traces are to be drawn.
 
     rows: one for each trace and parameter. Only parameters with both bounds count. A parameter that is positive in all
-    traces is described by its logarithm: mean is then the median of the population, and spread a factor minus 1.
+    traces is described by its logarithm: mean is then the median of the population, and spread a factor minus 1. The
+    95 % interval of the mean is Student's: the spread of a few traces is hardly known.
     """
+    from scipy.special import stdtrit
+
     found: list[PopulationRow] = []
     for name in dict.fromkeys(row["name"] for row in rows):
         of_name = [row for row in rows if row["name"] == name]
@@ -36,9 +39,10 @@ def population(rows: Sequence[ParameterRecord]) -> list[PopulationRow]:
         mean, between, of_mean = random_effects(value, error)
         shrinkage = float(np.mean(error**2 / (error**2 + between**2)))
         back = np.exp if positive else np.asarray
+        away = float(stdtrit(len(used) - 1, 0.975)) * of_mean
         found.append({
             "name": name, "unit": of_name[0]["unit"], "traces": len(used), "mean": float(back(mean)),
-            "low": float(back(mean - 1.96 * of_mean)), "high": float(back(mean + 1.96 * of_mean)),
+            "low": float(back(mean - away)), "high": float(back(mean + away)),
             "spread": float(np.expm1(between)) if positive else between, "spread_is_relative": positive,
             "shrinkage": shrinkage,
         })  # fmt: skip

@@ -159,6 +159,20 @@ def test_a_value_with_a_large_error_is_drawn_further_to_the_mean():
     assert drawn[4] == pytest.approx(10, abs=0.1) and drawn[5] < 6
 
 
+def test_the_interval_of_a_mean_of_three_traces_holds_it_as_often_as_it_says():
+    rng, held = np.random.default_rng(3), []
+    for _ in range(400):
+        errors = rng.uniform(0.2, 0.6, 3)
+        values = rng.normal(size=3) + errors * rng.normal(size=3)
+        rows = [
+            ROW | {"value": value, "low": value - 1.96 * error, "high": value + 1.96 * error}
+            for value, error in zip(values, errors, strict=True)
+        ]
+        [summary] = population(rows)
+        held.append(summary["low"] < 0 < summary["high"])
+    assert 0.93 < np.mean(held) < 0.99  # 0.81 with the normal distribution
+
+
 def test_a_population_needs_two_traces_with_both_bounds():
     assert population([ROW, ROW | {"low": None}]) == []
     [summary] = population([ROW, ROW | {"value": 2.0, "low": 1.8, "high": 2.2}])
