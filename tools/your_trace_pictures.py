@@ -158,6 +158,20 @@ def wall() -> Trace:
     return noisy(time, depth, law(time, depth) + 0.15 * going_in * np.clip((depth - 9e-3) / 2e-3, 0, 1))
 
 
+def crosstalk() -> Trace:
+    time, depth = motion()
+    return noisy(time, depth, law(time, depth) + 15 * np.clip(depth - WALL["surface"], 0, None))
+
+
+def smoothed() -> Trace:
+    """A moving average over 25 samples."""
+    time, depth = motion()
+    rough = law(time, depth) + 5 * NOISE * np.random.default_rng(1).normal(size=len(depth))
+    trace = Trace(depth, np.convolve(np.pad(rough, 12, "edge"), np.ones(25) / 25, "valid"), time)
+    print(*(finding.text for finding in examine(trace).findings), sep="\n")
+    return trace
+
+
 def shaken() -> Trace:
     time, depth = motion()
     measured = depth + 10e-6 * np.random.default_rng(2).normal(size=len(depth))
@@ -171,7 +185,7 @@ def plain() -> Trace:
 
 FITS: dict[str, Callable[[], Trace]] = {
     "explained": plain, "barbs": lambda: pulled(2.2), "weak": lambda: pulled(0.5), "rate": rate, "ripple": ripple,
-    "wall": wall, "depth-noise": shaken,
+    "wall": wall, "depth-noise": shaken, "crosstalk": crosstalk, "smoothed": smoothed,
 }  # fmt: skip
 
 
