@@ -148,8 +148,7 @@ def _no_room(request: NumberedRequest) -> Reply:
 
 
 def _refused(request: NumberedRequest, viewer: Viewer, hub: Hub, session: Session) -> Reply | None:
-    everyone = isinstance(request, Pause) and session.sitting  # who looks on at a participant's session
-    if hub.holder != viewer.number and not everyone:
+    if hub.holder != viewer.number and not isinstance(request, Pause):  # whoever sees a danger ends the force
         return Reply(id=request.id, ok=False, text="another page has control; take it first")
     if not session.running:
         return Reply(id=request.id, ok=False, text="the run has ended")

@@ -213,19 +213,20 @@ def test_a_target_that_is_none_is_told_and_moves_nothing(page, axis):
     assert np.abs(tip - tip[0]).max() < 1e-3
 
 
-def test_only_who_has_control_may_ask_and_anyone_may_take_it(served, page):
+def test_who_has_no_control_may_turn_the_force_off_or_take_control_and_nothing_else(served, page):
     with StudioClient(served.address.url) as other:
         other.wait(lambda: other.of("control"))
         assert not other.of("control")[-1]["you"]
-        refused = other.ask(do="pause")
+        assert other.ask(do="pause")["ok"] and not page.status()["armed"]
+        refused = other.ask(do="arm")
         assert not refused["ok"] and "control" in refused["text"]
         other.target([0.0, -10e-3, 0.0], AXIS)
         other.wait(lambda n=other.ticks: other.ticks > n + 200)  # the hand would have moved
         assert page.last.ticks["tip"][-1][1] > 4e-3
         assert other.ask(do="take_control")["ok"]
         page.wait(lambda: not page.of("control")[-1]["you"])
-        assert not page.ask(do="pause")["ok"]
-        assert other.ask(do="pause")["ok"]
+        assert not page.ask(do="arm")["ok"]
+        assert other.ask(do="arm")["ok"]
     page.wait(lambda: page.of("control")[-1]["holder"] is None)
     with StudioClient(served.address.url) as third:
         third.wait(lambda: third.of("control") and third.of("control")[-1]["you"])
