@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import betaincinv, chdtri, ndtr, ndtri, stdtrit  # scipy.stats takes long to import
+from scipy.special import betaincinv, chdtrc, chdtri, ndtr, ndtri, stdtrit, xlogy  # scipy.stats takes long
 
 from punctura.perception.course import counted
 from punctura.perception.load import LEAST
@@ -19,6 +19,8 @@ LEVEL = 0.95  # of all intervals
 SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
 VAGUE = 0.75  # of the range of the levels: an interval of the threshold that says nothing
 OPEN = 0.15  # of the largest density: that much at the end of the prior, and the answers set no bound there
+MISFIT = 0.001  # probability of answers that fit the function as badly
+REVERSED = 4.0  # standard deviations by which the answers go against the level
 QUARTER = float(ndtri(0.75))
 LEAST_CELL = 5  # answers for a rate of d'
 RATE = 0.3  # a rate of k in n is (k + RATE)/(n + 2 RATE): then d' has the least bias (docs/decisions/perception.md)
@@ -180,11 +182,17 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
     grid, shape = belief.grid, protocol.shape
     ends = [belief.mean(np.asarray(beyond, np.float64)) for beyond in (grid.place < grid.low, grid.place > grid.high)]
     outside = sum(ends)
-    if outside > SHARES[0] and max(ends) > 3 * min(ends):
+    if _misfit(belief, found) < MISFIT:
+        result.reason = "the answers do not follow one function of the level: see the share at each in trials.csv"
+    elif outside > SHARES[0] and max(ends) > 3 * min(ends):
         result.reason = (
             f"the threshold may lie outside the levels (probability {outside:.0%}): show levels on both sides of it"
         )
-    elif outside > SHARES[0] or np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread:
+    elif (
+        outside > SHARES[0]
+        or np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread
+        or (not shape.one_sided and belief.density(grid.width, grid.widest) > OPEN)
+    ):
         result.reason = "the answers hardly depend on the level, so they do not determine a threshold"
     if result.reason:
         return
@@ -200,6 +208,27 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
         if belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
             result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
     result.weber = _weber(result.jnd, found.reference)
+
+
+def _misfit(belief: Belief, found: Answers) -> float:
+    """The probability of answers that fit the function as badly: of the deviance of all levels."""
+    cells, which = np.unique(np.column_stack([found.level, found.side]), axis=0, return_inverse=True)
+    x = np.bincount(which, found.x) / np.bincount(which)
+    p = (belief.grid.probability(x, cells[:, 1]) * belief.weight).sum(axis=1)[which]
+    _, which = np.unique(found.level, return_inverse=True)
+    n, hits, wanted = (np.bincount(which, one) for one in (np.ones_like(p), found.counted, p))
+    deviance = 2 * (xlogy(hits, hits / wanted) + xlogy(n - hits, (n - hits) / (n - wanted))).sum()
+    return float(chdtrc(len(n), deviance))
+
+
+def _reversed(protocol: Protocol, found: Answers) -> bool:
+    """Whether the answers go against the level, as if two keys were exchanged."""
+    shape, hits = protocol.shape, found.counted
+    if shape.one_sided:
+        spread = np.sqrt(shape.guess * (1 - shape.guess) / len(hits))
+        return bool(hits.mean() < shape.guess - REVERSED * spread)
+    together = ((found.x - found.x.mean()) * (hits - hits.mean())).mean() * (1 if shape.rises else -1)
+    return bool(together * np.sqrt(len(hits)) < -REVERSED * found.x.std() * hits.std())
 
 
 def _share(right: Array) -> float | None:
@@ -219,6 +248,8 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
         if np.isin(found.level, (protocol.levels[0], protocol.levels[-1])).any():
             return "settings reach the end of the levels: show more"
         return "" if np.ptp(found.level) else "every setting was the same: make the steps between the levels smaller"
+    if _reversed(protocol, found):
+        return "the answers go against the level: were two answers exchanged, or was the question misunderstood?"
     if share in (0.0, 1.0):
         what = {"yes_no": ("no", "yes")}.get(protocol.file.task, ("wrong", "right"))
         what = ("the reference", "the comparison") if protocol.compares else what

@@ -91,7 +91,7 @@ class Grid:
         self.place, width, rest, root = self.parts
         self._lapses = len(axes[3])
         self.width, self.lapse = np.exp(width), root**2
-        self.narrowest = float(np.exp(widest[1][0]))
+        self.narrowest, self.widest = (float(end) for end in np.exp(widest[1]))
         self.bias = rest if shape.rest == "bias" else np.zeros(1)
         self.floor = rest if shape.rest == "floor" else np.zeros(1)
         outside = np.maximum(np.maximum(low - self.place, self.place - high), 0) / (spread / 2)

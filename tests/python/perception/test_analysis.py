@@ -160,6 +160,23 @@ def test_no_number_without_enough_answers(senses: dict[str, Senses]) -> None:
     assert all(person(guesser.protocol, "", guesser.run(i, i)).threshold is None for i in range(3))
 
 
+@pytest.mark.parametrize(
+    ("name", "counted", "words"),
+    [
+        ("compares", lambda level, i: i % 4 < 2, "hardly depend on the level"),
+        ("compares", lambda level, i: i % 10 < (7 if level in (0.3, 0.46) else 1), "do not follow one function"),
+        ("compares", lambda level, i: level < 0.41, "go against the level"),
+        ("right", lambda level, i: i % 4 == 0, "go against the level"),
+    ],
+)
+def test_answers_of_no_function_give_no_number(
+    senses: dict[str, Senses], name: str, counted: object, words: str
+) -> None:
+    protocol = senses[name].protocol
+    found = person(protocol, "", lines(protocol, counted) * 3)
+    assert words in found.reason and found.threshold is None and found.jnd is None
+
+
 @pytest.mark.parametrize("wrong", [{0}, {3, 9}])
 def test_a_staircase_that_does_not_settle_gives_no_threshold(senses: dict[str, Senses], wrong: set[int]) -> None:
     """It walks to the hardest level, and all further answers are right."""
