@@ -31,7 +31,7 @@ from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
 from punctura.identify.search import thinned, weighted
 from punctura.identify.slow_noise import with_slow_noise
-from punctura.identify.smeared_force import smeared_rig, smeared_words, without_smeared
+from punctura.identify.smeared_force import smeared_rig, smeared_walls, smeared_words, without_smeared
 from punctura.identify.uncertainty import Uncertainty
 from punctura.identify.verdict import verdicts
 from punctura.one_thread import one_thread
@@ -171,6 +171,7 @@ def _identified(
     if wide.values():
         report("tolerances of the rig")
         found = with_tolerance(found, final, wide)
+    found = smeared_walls(found, trace) if len(trace) < len(given) else found
     known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
     late = {one.name: one for one in found if one.name in LATE}
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
+from punctura.identify.intervals import Estimate
+from punctura.identify.parameters import kind_of
 from punctura.identify.rig import Rig
 from punctura.trace import Segments, Trace
 from punctura.trace.samples import smeared
@@ -29,11 +34,23 @@ def smeared_rig(rig: Rig, time: float) -> Rig:
     return replace(rig, delay=rig.delay or 0.0, delay_tolerance=max(rig.delay_tolerance, time))
 
 
+def smeared_walls(found: Sequence[Estimate], trace: Trace) -> tuple[Estimate, ...]:
+    """The estimates, where each wall may be thinner by the way between two samples: so far a filter smears its pop."""
+    way = float(np.median(np.abs(np.diff(trace.depth))))
+    return tuple(
+        replace(one, low=None if one.low is None or one.low <= way else one.low - way)
+        if kind_of(one.name) == "thickness"
+        else one
+        for one in found
+    )
+
+
 def smeared_words(before: Trace, after: Trace) -> tuple[str, ...]:
     """A sentence for a trace of which samples are left out."""
     if len(after) == len(before):
         return ()
     return (
         f"The force was smoothed or filled in, so {len(after)} of {len(before)} samples are used, and the intervals "
-        "allow for a filter that is late by the time between them. Export the force as it is measured.",
+        "allow for a filter that is late by the time between them, and for thinner walls. "
+        "Export the force as it is measured.",
     )

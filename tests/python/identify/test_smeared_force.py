@@ -16,6 +16,7 @@ TRUTH = {
 }  # fmt: skip
 MADE = trace(noise=0.02)
 SMEARED = {
+    "long moving average": lambda force: np.convolve(np.pad(force, 25, "edge"), np.ones(51) / 51, "valid"),
     "moving average": lambda force: np.convolve(np.pad(force, 10, "edge"), np.ones(21) / 21, "valid"),
     "low-pass of second order": lambda force: lfilter(*butter(2, 6, fs=200), force),
     "filled in": lambda force: np.interp(MADE.time, MADE.time[::10], force[::10]),
