@@ -58,17 +58,18 @@ class Runs:
         path = self.shelf.file(record) if record else None
         self.end_run()
         try:
-            self.run = Run(self.run.number + 1, self.bench, loaded, path, about, pose)
-        except Exception:
-            self.run = Run(self.run.number + 1, self.bench, self.run.loaded, pose=self.run.pose)
-            self.start_run()
-            raise
-        self.recording = record or ""
-        try:
+            try:
+                self.run = Run(self.run.number + 1, self.bench, loaded, path, about, pose)
+            except Exception:
+                self.run = Run(self.run.number + 1, self.bench, self.run.loaded, pose=self.run.pose)
+                self.start_run()
+                raise
+            self.recording = record or ""
             self.start_run(remind)
-        except Exception:  # the device does not start again: there is no tick, and nothing to record
-            self.arming.withhold()
-            self.end_run()
+        except Exception:
+            if not self.run.loop.running:  # the device does not start again: there is no tick, and nothing to record
+                self.arming.withhold()
+                self.end_run()
             raise
 
     def begin_activity(

@@ -79,14 +79,17 @@ def test_what_waits_for_the_worker_while_the_ticks_cease_does_not_arm(served, pa
     assert page.last.ticks["state"][-1] == UNARMED and not page.status()["armed"]
 
 
-def test_after_a_device_that_did_not_start_no_run_gives_force_by_itself(served, page, monkeypatch):
+@pytest.mark.parametrize("recorded", [False, True])
+def test_after_a_device_that_did_not_start_no_run_gives_force_by_itself(served, page, monkeypatch, recorded):
     page.wait(lambda: page.last.ticks["state"][-1] != UNARMED)
 
-    def refused(_run):
+    def refused(*_, **__):
         raise DeviceError("the cable is out")
 
+    request = {"do": "start_recording", "name": "x"} if recorded else {"do": "load", "scene": "k06-fig10"}
     with monkeypatch.context() as patched:
         patched.setattr(Run, "start", refused)
-        assert "the cable is out" in page.ask(do="load", scene="k06-fig10")["text"]
+        patched.setattr("punctura.studio.run.Recorder", refused)  # no run with a recording, and none without
+        assert "the cable is out" in page.ask(**request)["text"]
     begin(served, page, {"do": "load", "scene": "k06-fig10"})
     assert page.last.ticks["state"][-1] == UNARMED and not page.status()["armed"]
