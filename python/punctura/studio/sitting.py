@@ -282,12 +282,12 @@ class PerceptionSitting:
         return ()
 
     def _press(self, buttons: npt.NDArray[np.integer]) -> None:
-        """The device's first button gives the first answer, the second one the second. A dead-man button gives none."""
+        """The device's first button gives the first answer, the second one the second; no button gives consent."""
         before, self._held = self._held, int(buttons[-1])
         pressed = int(np.bitwise_or.reduce(buttons & ~np.append(before, buttons[:-1]).astype(buttons.dtype)))
         pressed &= ~int(self._studio.bench.settings.limits.gate.get("dead_man", 0))
         first = next((one for bit, one in enumerate(self._shown.answers) if pressed >> bit & 1), None)
-        if first:
+        if first and self._answers:
             self._studio.jobs.post(partial(self.respond, self._shown.question, first.name))
 
     def scene_change(self) -> None:

@@ -105,8 +105,11 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
 
 
 def test_no_consent_no_session(tmp_path: Path) -> None:
-    with sat(tmp_path, 'consent = "I agree."\n' + COMPARES) as (person, _):
+    with sat(tmp_path, 'consent = "I agree."\n' + COMPARES) as (person, server):
         person.reads("Do you agree?")
+        server.session.call(lambda: server.session.bench.simulated_device.point((0.0, -1.0, 0.0), 1)).result(30)
+        wait_until(lambda: server.session.run.loop.latest().buttons[-1] == 1)
+        person.page.wait(lambda n=person.page.ticks: person.page.ticks > n + 400)
         person.answers("no")
         person.reads("Then there is no session.")
     assert not (tmp_path / "out" / "P01.jsonl").exists()
