@@ -260,7 +260,7 @@ step_web() {
 step_page() {
   local package
   if has_browser; then
-    python -m pytest -n 2 --durations=8 tests/page
+    python -m pytest -n 2 --dist loadscope --no-loadscope-reorder --durations=8 tests/page
   elif package=$(browser_package); then
     echo "Chromium is missing. Run: apt-get install $package"
     return 1

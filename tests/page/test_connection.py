@@ -10,16 +10,14 @@ NO_STORAGE = """for (const which of ["localStorage", "sessionStorage"])
   Object.defineProperty(window, which, {get() { throw new DOMException("", "SecurityError"); }});"""
 
 
-def test_the_token_leaves_the_address_bar_and_a_reload_comes_in_again(page, studio):
+def test_the_token_leaves_the_address_bar_and_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(
+    page, studio, tmp_path
+):
     ready(page)
     assert page.url == studio.url.split("?")[0]
     page.reload()
     ready(page)
     assert page.url == studio.url.split("?")[0]
-
-
-def test_the_page_says_that_the_studio_has_gone_and_comes_back_with_it(page, studio, tmp_path):
-    ready(page)
     assert studio.end() in (0, 130)
     expect(page.locator(".header")).to_contain_text("No connection")
     token = studio.url.split("token=")[1]
@@ -45,7 +43,3 @@ def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
     expect(page.get_by_role("button", name="Take control").first).to_be_visible()
     assert second.url == studio.url  # a page that may keep nothing needs the token there for a reload
     second.close()
-
-
-def test_ctrl_c_ends_the_studio_with_no_force(studio):
-    assert studio.end() in (0, 130)

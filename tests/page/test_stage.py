@@ -74,7 +74,7 @@ def push_to_a_pop(page: Page) -> None:
     expect(marks(page)).not_to_have_count(0)
 
 
-def test_the_stage_opens_with_three_buttons_and_the_needle_whole_at_every_size(page):
+def test_the_stage_opens_with_three_buttons_and_the_needle_whole_and_the_bench_is_one_click_or_one_key_away(page):
     expect(page.get_by_role("button")).to_have_count(3)
     expect(page.get_by_role("tab")).to_have_count(0)
     for size in SIZES:
@@ -82,6 +82,26 @@ def test_the_stage_opens_with_three_buttons_and_the_needle_whole_at_every_size(p
         page.wait_for_function(WORDS_WHOLE)
         page.wait_for_function(NEEDLE_WHOLE)
         assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    page.set_viewport_size({"width": 1440, "height": 900})
+
+    keys = page.get_by_text("move the needle.")  # words and no frame tell it
+    expect(keys).to_be_hidden()
+    page.keyboard.press("Tab")
+    expect(view(page)).to_be_focused()
+    expect(keys).to_be_visible()
+    expect(view(page)).to_have_css("outline-style", "none")
+
+    page.get_by_role("button", name="More").click()
+    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
+    expect(page.locator(".stage-number")).to_be_hidden()
+    page.reload()
+    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
+    page.keyboard.press("Alt+b")
+    expect(page.locator(".stage-number")).to_be_visible()
+    expect(page.get_by_role("tab")).to_have_count(0)
+    page.reload()
+    expect(page.locator(".stage-number")).to_contain_text("N")
+    expect(page.get_by_role("button")).to_have_count(3)
 
 
 def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_slowly(page):
@@ -124,15 +144,6 @@ def test_without_webgl_the_slice_is_the_stage_and_a_drag_along_its_needle_goes_t
                 break
         page.mouse.up()
         expect(marks(page)).not_to_have_count(0)
-
-
-def test_words_and_no_frame_tell_that_the_keys_move_the_needle(page):
-    keys = page.get_by_text("move the needle.")
-    expect(keys).to_be_hidden()
-    page.keyboard.press("Tab")
-    expect(view(page)).to_be_focused()
-    expect(keys).to_be_visible()
-    expect(view(page)).to_have_css("outline-style", "none")
 
 
 def test_the_sentence_is_bound_to_the_place_of_the_needle(page):
@@ -192,17 +203,3 @@ def test_a_needle_at_rest_costs_no_pictures_of_view_and_curve_and_one_of_a_plot_
                 break
         assert drawn["view"] == drawn["curve"] == 0
         assert drawn["plots"] <= (seconds + 1 if bench else 0)
-
-
-def test_the_bench_is_one_click_or_one_key_away_and_is_remembered(page):
-    page.get_by_role("button", name="More").click()
-    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
-    expect(page.locator(".stage-number")).to_be_hidden()
-    page.reload()
-    expect(page.get_by_role("tab", name="Lab")).to_be_visible()
-    page.keyboard.press("Alt+b")
-    expect(page.locator(".stage-number")).to_be_visible()
-    expect(page.get_by_role("tab")).to_have_count(0)
-    page.reload()
-    expect(page.locator(".stage-number")).to_contain_text("N")
-    expect(page.get_by_role("button")).to_have_count(3)
