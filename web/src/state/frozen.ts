@@ -27,6 +27,7 @@ export function copiedHistory(history: History): History {
     copy.push(batchOf(history, tick, n));
     tick += n;
   }
+  copy.thinned = history.thinned;
   return copy;
 }
 

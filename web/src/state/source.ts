@@ -54,7 +54,9 @@ export class Source {
   private inside(tick: number | null): number | null {
     const { first, end } = this.history;
     if (end === first) return null;
-    return tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
+    let at = tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
+    while (at > first && !this.history.has(at)) at--;
+    return at;
   }
 }
 

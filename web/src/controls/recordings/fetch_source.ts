@@ -1,9 +1,9 @@
+import { gapBefore } from "../../state/gap.ts";
 import { Source } from "../../state/source.ts";
 import { type Api, recordingPath } from "../../wire/api.ts";
 import { FrameSplitter } from "../../wire/length_prefixed.ts";
 import type { RecordingEntry, RecordingOverview } from "../../wire/messages.ts";
 import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
-import { gapBefore } from "./gap.ts";
 
 /** Limit for the page's memory: 11 minutes at 1600 Hz. The rest stays in the file only. */
 const MOST_TICKS = 1 << 20;

@@ -1,4 +1,4 @@
-import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../../wire/ticks.ts";
+import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../wire/ticks.ts";
 
 // biome-ignore format: a table
 const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
@@ -6,7 +6,7 @@ const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
   "depth", "axial_force", "lower", "upper", "proxy", "direction",
 ];
 
-/** The lost ticks of a recording before `next`: times but no values, so that the gap is visible. */
+/** Ticks that are missing before `next`: times but no values, so that the gap is visible, and the states of `next`. */
 export function gapBefore(next: TickBatch, from: number, period: number): TickBatch {
   const count = next.firstTick - from;
   const floats = Object.fromEntries(
@@ -14,7 +14,12 @@ export function gapBefore(next: TickBatch, from: number, period: number): TickBa
   ) as TickBatch["floats"];
   for (let i = 0; i < count; i++) floats.time[i] = i * period;
   const bytes = Object.fromEntries(
-    BYTE_COLUMNS.map((name) => [name, new Uint8Array(count * rowWidth(name, next.membranes))]),
+    BYTE_COLUMNS.map((name) => {
+      const width = rowWidth(name, next.membranes);
+      const rows = new Uint8Array(count * width);
+      for (let i = 0; i < count; i++) rows.set(next.bytes[name].subarray(0, width), i * width);
+      return [name, rows];
+    }),
   ) as TickBatch["bytes"];
   const { run, lost, membranes } = next;
   const firstTime = next.firstTime - count * period;
