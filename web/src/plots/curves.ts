@@ -6,6 +6,7 @@ import type { LabComparison } from "../wire/messages.ts";
 import { isCompared } from "./gather.ts";
 import { type Curve, Hidden } from "./kit/legend.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
+import { nameOf } from "./names.ts";
 
 export const DASH = [5, 3] as const;
 export const CUT_SHADE = 0.22;
@@ -20,8 +21,7 @@ const otherName = (source: Source): string => `${source.scene.value?.solver === 
 export const membraneCurves = (source: Source, theme: Theme): Curve[] =>
   Array.from({ length: source.history.membranes }, (_, i) => ({
     id: `membrane ${i}`,
-    text: `${i + 1} ${source.scene.value?.membranes[i]?.name ?? "membrane"}`,
-    short: String(i + 1),
+    text: nameOf(source, i),
     colour: colourOf(theme, i),
   }));
 

@@ -10,10 +10,11 @@ import { keyTick } from "./keys.ts";
 import { legend } from "./kit/legend.ts";
 import { type Box, Surface } from "./kit/surface.ts";
 import { type Theme, watchTheme } from "./kit/theme.ts";
+import { nameOf } from "./names.ts";
 import { reading } from "./reading.ts";
 import { scaleChip } from "./scale_chip.ts";
 import { plotsOf } from "./shared.ts";
-import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
+import { button, choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
 
 const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
 const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance
@@ -67,6 +68,7 @@ export const forceDepthPlot: Panel = (host, app) => {
       scaleChip(plots),
       element("span", { class: "plot-gap" }),
       reset,
+      menu("Curves", "Show and hide curves", curves.root),
       pauseButton(app),
       saveMenu({
         name: "force-depth",
@@ -78,7 +80,6 @@ export const forceDepthPlot: Panel = (host, app) => {
         curves: () => forceDepthCurves(picture(), theme!).filter(({ id }) => hidden.shows(id)),
       }),
     ),
-    curves.root,
     body,
     element("div", { class: "plot-foot" }, readout, compared),
     spoken,
@@ -110,14 +111,11 @@ export const forceDepthPlot: Panel = (host, app) => {
     changes++;
   });
   hidden.ids.watch(() => changes++);
-  const name = (i: number): string => plots.source.scene.value?.membranes[i]?.name ?? `membrane ${i + 1}`;
+  const name = (i: number): string => nameOf(plots.source, i);
   const offer = (): void => {
     const { membranes } = plots.source.history;
     const names = plots.source.scene.value?.membranes.map((m) => m.name) ?? [];
-    const entries = Array.from(
-      { length: Math.max(membranes, names.length) },
-      (_, i) => [String(i), `${i + 1} ${name(i)}`] as const,
-    );
+    const entries = Array.from({ length: Math.max(membranes, names.length) }, (_, i) => [String(i), name(i)] as const);
     if (chosen !== null && chosen >= entries.length) chosen = null;
     which.offer([["all", "all membranes"], ...entries], chosen === null ? "all" : String(chosen));
     changes++;
@@ -156,7 +154,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     const force = -history.row("axial_force", tick)[m]!;
     const felt = `${feltForce(scaleOf(plots.source, tick))} ${newton(force * feltShare(history, tick), 3)}`;
     const at =
-      `${m + 1} ${name(m)}: ${mm(depth, 3)}, ${MODEL_FORCE} ${newton(force, 3)}, ${felt} ` +
+      `${name(m)}: ${mm(depth, 3)}, ${MODEL_FORCE} ${newton(force, 3)}, ${felt} ` +
       `at ${history.timeOf(tick).toFixed(4)} s`;
     readout.textContent = at.replaceAll("-", "−");
   };

@@ -1,9 +1,15 @@
 import type { Source } from "../state/source.ts";
-import { drawBadge } from "./badge.ts";
 import { drawBand } from "./band.ts";
 import { drawMean } from "./band_mean.ts";
 import { DASH, forceCurves, meanCurve, membraneCurves } from "./curves.ts";
-import { drawnMembranes, endOf, type ForceDepthPicture, meanBands, overlaidMembranes } from "./force_depth_picture.ts";
+import {
+  bandedMembranes,
+  drawnMembranes,
+  endOf,
+  type ForceDepthPicture,
+  meanBands,
+  overlaidMembranes,
+} from "./force_depth_picture.ts";
 import { ForceDepthRanges } from "./force_depth_ranges.ts";
 import { gather, gatherFelt, gatherOther, gatherPermitted, isCompared } from "./gather.ts";
 import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
@@ -13,6 +19,7 @@ import { Painted } from "./kit/painted.ts";
 import type { Pen, Stroke } from "./kit/pen.ts";
 import { Polyline } from "./kit/polyline.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
+import { drawEnds, endAt } from "./names.ts";
 import { drawPops } from "./pop_marks.ts";
 
 const MM = 1e3;
@@ -62,7 +69,7 @@ export class ForceDepthDrawing {
     const end = endOf(picture);
     const membranes = drawnMembranes(picture);
     pen.within(left, top, width, height, () => {
-      for (const i of hidden.shows("band") ? membranes : []) {
+      for (const i of hidden.shows("band") ? bandedMembranes(picture) : []) {
         const law = source.laws.value[i];
         if (law) drawBand(pen, this.pane, law, colourOf(theme, i));
       }
@@ -203,9 +210,7 @@ export class ForceDepthDrawing {
       pen.dot(px, py, 4, theme.panel, theme.text);
     }
     if (last < history.first || last >= history.end) return;
-    for (const i of drawnMembranes(picture).reverse()) {
-      const [px, py] = place(last, i);
-      if (Number.isFinite(px + py)) drawBadge(pen, px, py, i, theme);
-    }
+    const ends = drawnMembranes(picture).map((i) => endAt(picture.source, i, ...place(last, i), theme));
+    drawEnds(pen, this.pane, ends, theme);
   }
 }

@@ -1,8 +1,11 @@
 import type { Source } from "../state/source.ts";
 import type { LabBand, LabComparison } from "../wire/messages.ts";
+import { codeOf } from "../wire/ticks.ts";
 import { shownMembranes } from "./curves.ts";
 import type { Hidden } from "./kit/legend.ts";
 import type { Window } from "./window.ts";
+
+const OUTSIDE = codeOf("phase", "outside");
 
 export interface Area {
   readonly x: readonly [number, number];
@@ -29,6 +32,15 @@ export interface ForceDepthPicture {
 /** The membranes that are drawn. */
 export const drawnMembranes = ({ source, chosen, hidden }: ForceDepthPicture): number[] =>
   chosen === null ? shownMembranes(source.history, hidden) : chosen < source.history.membranes ? [chosen] : [];
+
+/** Those whose friction band is drawn. With more than two, the bands would cover each other: then the present one. */
+export function bandedMembranes(picture: ForceDepthPicture): number[] {
+  const all = drawnMembranes(picture);
+  const { history } = picture.source;
+  if (all.length < 3 || history.length === 0) return all;
+  const phase = history.byteRow("phase", Math.max(history.first, endOf(picture) - 1));
+  return [all.findLast((i) => phase[i] !== OUTSIDE) ?? all[0]!];
+}
 
 /** The matching membranes of the earlier run: those with the same name, else with the same index. */
 export function overlaidMembranes(picture: ForceDepthPicture): number[] {

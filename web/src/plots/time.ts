@@ -13,7 +13,7 @@ import { Scrolled } from "./scrolled.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
 import { TimeDrawing, timeCurves } from "./time_drawing.ts";
 import type { TimePicture } from "./time_picture.ts";
-import { button, choice, pauseButton, saveMenu } from "./toolbar.ts";
+import { button, choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
 const TAIL = 800; // ticks without states, limits and marks in the background, at most
@@ -62,6 +62,7 @@ export const timePlots: Panel = (host, app) => {
       scaleChip(plots),
       element("span", { class: "plot-gap" }),
       reset,
+      menu("Curves", "Show and hide curves", curves.root),
       pauseButton(app),
       saveMenu({
         name: "force-and-depth",
@@ -73,7 +74,6 @@ export const timePlots: Panel = (host, app) => {
         curves: () => timeCurves(picture(), theme!).filter(({ id }) => hidden.shows(id)),
       }),
     ),
-    curves.root,
     body,
     spoken,
   );

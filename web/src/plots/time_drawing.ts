@@ -1,14 +1,14 @@
-import { MODEL_FORCE } from "../state/scale.ts";
+import { feltForce, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
-import { drawBadge } from "./badge.ts";
 import { drawMean } from "./band_mean.ts";
 import { forceCurves, meanCurve, membraneCurves, shownMembranes } from "./curves.ts";
-import { Extent } from "./gather.ts";
+import { Extent, signedSize } from "./gather.ts";
 import { AutoRange } from "./kit/auto_range.ts";
 import { drawAxes, MARGIN, Pane } from "./kit/axes.ts";
 import type { Curve } from "./kit/legend.ts";
 import type { Pen } from "./kit/pen.ts";
 import { colourOf, type Theme } from "./kit/theme.ts";
+import { drawEnds, type End, endAt } from "./names.ts";
 import { drawReading } from "./reading.ts";
 import { TimeLines } from "./time_lines.ts";
 import { drawFound, drawLimits, drawMarks, drawStates, foundCurve, limitCurve } from "./time_marks.ts";
@@ -159,13 +159,7 @@ export class TimeDrawing {
       pen.segment(x, force.top, x, bottom, { colour: theme.accent, width: 1.5 });
     }
     const last = window.end - 1;
-    if (inside(last)) {
-      const x = force.x.px(history.timeOf(last));
-      for (const i of shown.toReversed()) {
-        const y = depth.y.px(history.row("depth", last)[i]! * MM);
-        if (depth.holds(x, y)) drawBadge(pen, Math.min(x, depth.right - 8), y, i, theme);
-      }
-    }
+    if (inside(last)) this.drawNames(pen, picture, last, theme);
     if (inside(pointed)) {
       const x = force.x.px(history.timeOf(pointed));
       pen.segment(x, force.top, x, bottom, { colour: theme.text, width: 1, alpha: 0.6, dash: [3, 3] });
@@ -181,5 +175,32 @@ export class TimeDrawing {
       }
       drawReading(pen, force, source, pointed, theme, noDepth);
     }
+  }
+
+  /** The curves' names at the last tick. Of the forces, only those that are not at zero, and not at another one. */
+  private drawNames(pen: Pen, { source, hidden }: TimePicture, last: number, theme: Theme): void {
+    const { history } = source;
+    const { force, depth } = this;
+    const x = force.x.px(history.timeOf(last));
+    const shown = shownMembranes(history, hidden);
+    const depths = shown.map((i) => endAt(source, i, x, depth.y.px(history.row("depth", last)[i]! * MM), theme));
+    drawEnds(pen, depth, depths, theme);
+    const slot = history.slot(last);
+    const sums = [
+      ["felt", feltForce(scaleOf(source)), "force"],
+      ["model", MODEL_FORCE, "model_force"],
+    ] as const;
+    const all: End[] = [
+      ...shown.map((i) => endAt(source, i, x, force.y.px(-history.row("axial_force", last)[i]!), theme)),
+      ...sums.flatMap(([id, text, column]) => {
+        const y = force.y.px(signedSize(history, column, slot));
+        return hidden.shows(id) ? [{ x, y, text, colour: theme.text }] : [];
+      }),
+    ];
+    const [zero, near] = [force.y.px(0), 5];
+    const ends = all.filter(
+      ({ y }, i) => Math.abs(y - zero) > near && !all.slice(0, i).some((one) => Math.abs(one.y - y) < near),
+    );
+    drawEnds(pen, force, ends, theme);
   }
 }

@@ -38,15 +38,20 @@ export function pauseButton(app: App): HTMLButtonElement {
 
 /** A menu that saves the plot's window. */
 export function saveMenu(saving: Saving): HTMLElement {
-  const menu = element("details", { class: "plot-save" }, element("summary", { title: "Save the plot" }, "Save"));
   const entry = (format: "png" | "svg" | "csv", text: string): HTMLButtonElement =>
     button(text, `Save as ${text}`, () => {
-      menu.open = false;
+      made.open = false;
       void save(saving, format);
     });
-  menu.append(
-    element("div", {}, entry("png", "PNG picture"), entry("svg", "SVG drawing"), entry("csv", "CSV, every tick")),
-  );
+  const entries = [entry("png", "PNG picture"), entry("svg", "SVG drawing"), entry("csv", "CSV, every tick")];
+  const made = menu("Save", "Save the plot", element("div", {}, ...entries));
+  made.classList.add("plot-save");
+  return made;
+}
+
+/** A menu that opens below its word, and closes when something else is used. */
+export function menu(word: string, title: string, content: HTMLElement): HTMLDetailsElement {
+  const menu = element("details", { class: "plot-menu" }, element("summary", { title }, word), content);
   menu.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !menu.open) return;
     menu.open = false;

@@ -101,7 +101,7 @@ describe("force against depth", () => {
     const from = source({ other_force: other, model_force: () => [0, 0.25, 0] });
     const { file } = drawn({ ...picture(from), overlay: source() });
     const names = forceDepthCurves({ ...picture(from), overlay: source() }, theme).map(({ text }) => text);
-    expect(names).toEqual(["1 membrane", "felt force", "force limit", "paper solver", "friction band", "test"]);
+    expect(names).toEqual(["membrane 1", "felt force", "force limit", "paper solver", "friction band", "test"]);
     expect(heights(file, "black").length).toBeGreaterThan(100);
   });
 });
@@ -133,6 +133,27 @@ describe("force and depth against time", () => {
   it("one tick of 20 000 that stands out is drawn at its height", () => {
     const { drawing, file } = drawn(source());
     expect(Math.min(...heights(file, "blue"))).toBeCloseTo(drawing.force.y.px(3), 1);
+  });
+
+  it("a curve has its name at its end, inside the plot, and no name is on another one", () => {
+    const from = new Source("test", true, 100);
+    from.history.push(
+      batch(0, 100, 3, {
+        depth: () => [1e-3, 1.01e-3, 9e-3],
+        axial_force: () => [-0.3, -0.3, 0],
+        direction: () => [0, -1, 0, 0, -1, 0, 0, -1, 0],
+        axis: () => [0, -1, 0],
+        phase: () => [2, 2, 2],
+      }),
+    );
+    const { file, drawing } = drawn(from);
+    const places = [...file.matchAll(/<text x="([\d.]+)" y="([\d.]+)"[^>]*>membrane (\d)</g)].map(([, x, y, i]) => ({
+      x: Number(x), y: Number(y), i,
+    })); // biome-ignore format: one line
+    const below = places.filter(({ y }) => y > drawing.depth.top);
+    expect(below.map(({ i }) => i).sort()).toEqual(["1", "2", "3"]);
+    for (const { y } of below) expect(below.filter((one) => Math.abs(one.y - y) < 11)).toHaveLength(1);
+    expect(places.every(({ x }) => x >= drawing.depth.left && x <= drawing.depth.right)).toBe(true);
   });
 
   it("a curve that is switched off is not drawn, and the axis forgets it", () => {

@@ -29,16 +29,24 @@ export function labelsThatFit(labels: readonly Label[], left: number, right: num
   return fit;
 }
 
-/** Moves labels in a column apart, in their order: at least `gap` px between two middles, none below `bottom`. */
-export function apart(middles: readonly number[], gap: number, bottom: number): number[] {
+/**
+ * Moves labels in a column apart, in their order: at least `gap` px between two middles, none below `bottom`. meet:
+ * whether two of them can touch at all.
+ */
+export function apart(
+  middles: readonly number[],
+  gap: number,
+  bottom: number,
+  meet: (one: number, other: number) => boolean = () => true,
+): number[] {
   const order = middles.map((_, i) => i).sort((a, b) => middles[a]! - middles[b]!);
   const placed = [...middles];
   order.forEach((i, k) => {
-    if (k) placed[i] = Math.max(placed[i]!, placed[order[k - 1]!]! + gap);
+    for (const j of order.slice(0, k)) if (meet(i, j)) placed[i] = Math.max(placed[i]!, placed[j]! + gap);
   });
   order.toReversed().forEach((i, k) => {
-    const below = k ? placed[order.at(-k)!]! - gap : bottom;
-    placed[i] = Math.min(placed[i]!, below);
+    placed[i] = Math.min(placed[i]!, bottom);
+    for (const j of order.slice(order.length - k)) if (meet(i, j)) placed[i] = Math.min(placed[i]!, placed[j]! - gap);
   });
   return placed;
 }

@@ -14,8 +14,6 @@ export interface Curve {
   /** Plots that have the same curve show or hide it together. */
   readonly id: string;
   readonly text: string;
-  /** The text on the button, if it is shorter. */
-  readonly short?: string;
   readonly colour: string;
   /** px; default 2.5 */
   readonly width?: number;
@@ -95,15 +93,12 @@ class Entry {
     this.button = element("button", { type: "button", onclick: act }, this.sample, this.words);
   }
 
-  show({ text, short, colour, width, dash, shade }: Curve): void {
-    const { sample, button } = this;
+  show({ text, colour, width, dash, shade }: Curve): void {
+    const { sample } = this;
     sample.className = shade !== undefined ? "shade" : dash ? "dashed" : "line";
     sample.style.setProperty("--ink", colour);
     sample.style.setProperty("--line-width", width ? `${width}px` : "");
-    this.words.data = short ?? text;
-    for (const name of ["aria-label", "title"])
-      if (short) button.setAttribute(name, text);
-      else button.removeAttribute(name);
+    this.words.data = text;
   }
 }
 
