@@ -66,7 +66,7 @@ export const view: Panel = (host, app) => {
   } catch {
     canvas.hidden = true;
     help.hidden = true;
-    showTrouble("No 3D view: this browser has no WebGL. Plots, phases and all controls work without it.");
+    showTrouble("No 3D view: this browser has no WebGL. The slice and everything else work without it.");
     const speak = spoken(host);
     host.tabIndex = 0;
     host.setAttribute("role", "application");

@@ -1,5 +1,6 @@
 import type { Vector3 } from "three";
 import { element, everyFrame } from "../panel.ts";
+import { DepthScale, framingOf } from "../scene/framing.ts";
 import { Moment } from "../scene/moment.ts";
 import { type Probe, placeAtNeedle, planeOf, type SkinFrame, skinFrame } from "../scene/probe.ts";
 import type { App } from "../state/app.ts";
@@ -55,6 +56,14 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
     drawn = "";
   }).observe(picture);
 
+  /** On the stage, the curve beside the picture has the same heights. */
+  const framing = framingOf(app);
+  const tellDepths = ({ depth, y }: Shown["frame"]): void => {
+    const top = canvas.getBoundingClientRect().top - host.parentElement!.getBoundingClientRect().top;
+    const depths = new DepthScale(top, top + y(depth / 2), top + y(depth), depth);
+    if (!depths.equals(framing.depths.value)) framing.depths.value = depths;
+  };
+
   const build = (scene: SceneView): void => {
     const first = built === null;
     const skin = skinFrame(scene);
@@ -78,6 +87,7 @@ export function slice(host: HTMLElement, app: App, probe: Probe, close: () => vo
       const before = performance.now();
       shown = built.drawing.draw(canvas, size.width, size.height, moment, place, quality.pixels);
       if (shown) probe.picture.value = samePicture(probe.picture.value, shown.frame);
+      if (shown && follows()) tellDepths(shown.frame);
       if (quality.judge(performance.now() - before)) less.hidden = quality.level === 0;
     }
     if (shown && now - describedAt > WORDS_MS) {
