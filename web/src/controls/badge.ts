@@ -1,6 +1,9 @@
 import { element } from "../panel.ts";
 import { colourToken } from "../state/colours.ts";
 
-/** A membrane's number, in its colour of the plots. */
-export const badge = (membrane: number): HTMLElement =>
-  element("span", { class: `badge ${colourToken(membrane)}`, "aria-hidden": "true" }, String(membrane + 1));
+/** A membrane's number in its colour. The number serves readers who cannot tell the colours apart. */
+export function badge(membrane: number): HTMLElement {
+  const made = element("span", { class: "badge", "aria-hidden": "true" }, String(membrane + 1));
+  made.style.setProperty("--mark", `var(--${colourToken(membrane)})`);
+  return made;
+}

@@ -13,7 +13,6 @@ import { sortProblems } from "./editor/problems.ts";
 import { type ReportLine, report } from "./editor/report.ts";
 import { solverControl } from "./editor/solver.ts";
 import { duplicated, membranes, withMembranes } from "./editor/tables.ts";
-import { figuresLink } from "./figures_link.ts";
 
 const OUTSIDE = codeOf("phase", "outside");
 
@@ -172,4 +171,24 @@ function addMembrane(draft: Draft, list: MembraneList): void {
   const next = duplicated(all, all.length - 1);
   draft.change(withMembranes(draft.tables.value, next));
   list.focus(next.length - 1);
+}
+
+const PATH = "/figures/";
+
+/** A link to the page of the paper's figures, or the command that makes the page. */
+function figuresLink(app: App): HTMLElement {
+  const link = element("a", { href: app.api.address(PATH), target: "_blank", rel: "noopener" }, "Figures of the paper");
+  const made = element("span", { hidden: true }, link, ": K06 Figs. 3, 5, 10, 11 and 12, computed by this model.");
+  const missing = element(
+    "span",
+    {},
+    "The paper’s figures, computed by this model: ",
+    element("code", {}, "punctura reproduce"),
+    " makes the page.",
+  );
+  app.hello.watch((hello) => {
+    made.hidden = !hello?.figures;
+    missing.hidden = hello?.figures ?? false;
+  });
+  return element("p", { class: "quiet pad figures" }, made, missing);
 }

@@ -1,12 +1,13 @@
-import { element, type Panel } from "../panel.ts";
+import { element, keptList, type Panel } from "../panel.ts";
+import type { App } from "../state/app.ts";
 import { pageOf, show } from "../state/page.ts";
+import { keep, storage } from "../state/storage.ts";
+import type { Choice } from "../wire/messages.ts";
 import { layoutMenu } from "./arrange/layout_menu.ts";
-import { connectionLine } from "./connection_line.ts";
 import { controlLine } from "./control_line.ts";
-import { scenePicker } from "./scene_picker.ts";
 import { stateButton } from "./state_button.ts";
-import { themeSwitch } from "./theme_switch.ts";
 import { startTour } from "./tour.ts";
+import { connectionWords } from "./words.ts";
 
 const toTabs = (): void => {
   const tab = document.querySelector<HTMLElement>(".side [role=tab][aria-selected=true]");
@@ -58,3 +59,107 @@ export const headerBar: Panel = (host, app) => {
     themeSwitch(),
   );
 };
+
+const KEY = "punctura.theme";
+const CHOICES = [
+  ["light dark", "◐", "system"],
+  ["light", "☀", "light"],
+  ["dark", "☾", "dark"],
+] as const;
+
+/** Switches between light, dark and the system's colours. The choice is stored in this browser. */
+function themeSwitch(): HTMLElement {
+  let index = Math.max(
+    0,
+    CHOICES.findIndex(([scheme]) => scheme === storage()?.getItem(KEY)),
+  );
+  const button = element("button", { type: "button", class: "quiet-button" });
+  const show = (): void => {
+    const [scheme, mark, words] = CHOICES[index]!;
+    if (scheme === "light dark") document.documentElement.style.removeProperty("color-scheme");
+    else document.documentElement.style.colorScheme = scheme;
+    button.textContent = mark;
+    button.title = `Colours: ${words}`;
+    button.setAttribute("aria-label", button.title);
+  };
+  button.addEventListener("click", () => {
+    index = (index + 1) % CHOICES.length;
+    keep(KEY, CHOICES[index]![0]);
+    show();
+  });
+  show();
+  return button;
+}
+
+const OWN = "";
+
+/** The list of ready scenes. A scene from a file, or an edited one, comes first. */
+function scenePicker(app: App): HTMLElement {
+  const select = element("select", { "aria-label": "Scene", class: "scene-picker" });
+  const offer = keptList<Choice>(select, ({ name, title }) => element("option", { value: name }, title));
+  const show = (): void => {
+    const hello = app.hello.value;
+    const scene = app.live.scene.value;
+    if (!hello) return;
+    const ready = hello.scenes.find(({ name, title }) => title === scene?.name || name === scene?.name);
+    offer([...(scene && !ready ? [{ name: OWN, title: scene.name }] : []), ...hello.scenes]);
+    select.value = ready?.name ?? OWN;
+  };
+  app.hello.watch(show);
+  app.live.scene.watch(show);
+  let loading = false;
+  const enable = (): void => {
+    select.disabled = loading || !app.control.value.you || app.connection.value.state !== "open";
+  };
+  app.control.watch(enable);
+  app.connection.watch(enable);
+  select.addEventListener("change", () => {
+    if (select.value === OWN) return;
+    loading = true;
+    enable();
+    void app.ask({ do: "load", scene: select.value }).then((reply) => {
+      loading = false;
+      enable();
+      if (!reply?.ok) show();
+    });
+  });
+  return select;
+}
+
+const SILENT_MS = 2000;
+const LOOK_MS = 250;
+
+/** A line with the state of the connection. It also tells if the studio is connected but sends no ticks. */
+function connectionLine(app: App): HTMLElement {
+  const dot = element("span", { class: "dot", "aria-hidden": "true" });
+  // The countdown is only visible; a screen reader gets the changes of state.
+  const words = element("span", { class: "connection-words", "aria-hidden": "true" });
+  const spoken = element("span", { class: "only-read", role: "status" });
+  const line = element("span", { class: "connection" }, dot, words, spoken);
+  let since = performance.now();
+  let end = -1;
+  let lastTick = performance.now();
+  const show = (): void => {
+    const now = app.connection.value;
+    const { history } = app.live;
+    if (history.end !== end) {
+      end = history.end;
+      lastTick = performance.now();
+    }
+    const silent = now.state === "open" && performance.now() - Math.max(lastTick, since) > SILENT_MS;
+    const left = now.state === "lost" ? now.retryInMs - (performance.now() - since) : 0;
+    const text = connectionWords(now, silent, left, app.engine.studio);
+    if (words.textContent !== text) words.textContent = text;
+    const state = now.state === "lost" ? "No connection; retrying" : text;
+    const steady = now.state === "connecting" && now.attempt > 1 ? spoken.textContent : state;
+    if (spoken.textContent !== steady) spoken.textContent = steady;
+    line.dataset.state = silent ? "lost" : now.state;
+    line.title = now.state === "lost" ? now.reason : "";
+  };
+  app.connection.watch(() => {
+    since = performance.now();
+    show();
+  });
+  setInterval(show, LOOK_MS);
+  return line;
+}

@@ -2,7 +2,6 @@ import { Api, ApiError, type Fetch } from "../wire/api.ts";
 import { framesOf } from "../wire/length_prefixed.ts";
 import { parseMessage } from "../wire/parse.ts";
 import { decodeTicks, type TickBatch } from "../wire/ticks.ts";
-import { waitBefore } from "./backoff.ts";
 import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
 import { Pending } from "./pending.ts";
 
@@ -185,4 +184,16 @@ export class SocketEngine implements Engine {
     this.complained = true;
     this.listener?.message({ kind: "notice", text: `Cannot read a message from the studio: ${what}.` });
   }
+}
+
+const FIRST_MS = 250;
+const LARGEST_MS = 8000;
+
+/**
+ * The wait before attempt n, ms (1 is the first after a loss): doubles, with random jitter so that pages do not
+ * all connect at once.
+ */
+function waitBefore(attempt: number, chance: () => number = Math.random): number {
+  const wait = Math.min(LARGEST_MS, FIRST_MS * 2 ** (attempt - 1));
+  return Math.round(wait * (0.8 + 0.4 * chance()));
 }

@@ -1,5 +1,4 @@
 import { element } from "../panel.ts";
-import { gestureWords } from "./gesture_words.ts";
 
 /** A button that tells what gestures and keys do. Closed, it covers nothing. */
 export const gestureHelp = (): HTMLElement =>
@@ -13,3 +12,9 @@ export const gestureHelp = (): HTMLElement =>
     ),
     element("p", { id: "view-help" }, ...gestureWords()),
   );
+
+/** What gestures do, in one line: for a mouse, and shorter for fingers. The style sheet shows one of them. */
+const gestureWords = (): HTMLElement[] => [
+  element("span", { class: "by-mouse" }, "Drag, wheel, ↓↑: push, pull · Shift: sideways · right-drag: turn"),
+  element("span", { class: "by-touch" }, "Drag: push and pull · two fingers: turn, zoom"),
+];

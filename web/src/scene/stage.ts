@@ -1,7 +1,6 @@
 import type { Camera } from "three";
 import { DirectionalLight, HemisphereLight, Scene, WebGLRenderer } from "three";
 import { Quality } from "./quality.ts";
-import { drawsInSoftware } from "./software.ts";
 import type { Theme } from "./theme.ts";
 
 const HIGHEST_RATIO = 2; // device pixels per CSS pixel, along each side
@@ -101,4 +100,16 @@ export class Stage {
     this.ratio = ratio;
     this.renderer.setPixelRatio(ratio);
   }
+}
+
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+/** Whether the browser renders WebGL in software, without a graphics card. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return false;
+  const names = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return SOFTWARE.test(name);
 }

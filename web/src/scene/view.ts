@@ -3,6 +3,7 @@ import { thumbOf } from "../hand/thumb.ts";
 import { thumbInView } from "../hand/thumb_button.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { showLastAgain } from "../pop/again.ts";
+import type { App } from "../state/app.ts";
 import { asTissue } from "../tissue/layers.ts";
 import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
@@ -14,6 +15,7 @@ import { gestureHelp } from "./help.ts";
 import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
+import { Moment } from "./moment.ts";
 import { needleGrip } from "./needle_grip.ts";
 import { popRing } from "./pop_ring.ts";
 import { presets } from "./presets.ts";
@@ -25,7 +27,6 @@ import { SliceFrame } from "./slice_frame.ts";
 import { spoken } from "./spoken.ts";
 import { Stage } from "./stage.ts";
 import { Theme } from "./theme.ts";
-import { followInWords } from "./words_only.ts";
 import { World } from "./world.ts";
 
 const COARSER =
@@ -178,3 +179,13 @@ export const view: Panel = (host, app) => {
     speak(world.moment, scene, now);
   });
 };
+
+/** Replaces the view if the browser has no WebGL: speaks the needle's state to a screen reader. */
+function followInWords(app: App, speak: (moment: Moment, scene: SceneView, now: number) => void): void {
+  const moment = new Moment();
+  everyFrame((now) => {
+    const source = app.source.value;
+    const scene = source.scene.value;
+    if (scene && source.history.membranes === scene.membranes.length && moment.read(source)) speak(moment, scene, now);
+  });
+}

@@ -2,7 +2,7 @@ import { element, type Panel } from "../panel.ts";
 import { probeOf } from "../scene/probe.ts";
 import { view } from "../scene/view.ts";
 import { pageOf } from "../state/page.ts";
-import { remember, wasOpen } from "./remembered.ts";
+import { keep, storage } from "../state/storage.ts";
 
 /**
  * The 3-D view, and beside it the slice, which a button in the view's toolbar opens and closes. Without WebGL, the
@@ -51,3 +51,14 @@ export const viewWithSlice: Panel = (host, app) => {
   (main.querySelector(".view-tools") ?? main).append(button);
   page.watch((now) => show(now === "stage" ? flat : wasOpen()));
 };
+
+const KEY = "punctura.slice";
+
+/** Whether the slice is open, as this browser remembers it. If it may not, the slice is closed at first. */
+function wasOpen(): boolean {
+  return storage()?.getItem(KEY) === "open";
+}
+
+function remember(open: boolean): void {
+  keep(KEY, open ? "open" : "closed");
+}

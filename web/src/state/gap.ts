@@ -1,16 +1,10 @@
-import { BYTE_COLUMNS, type FloatColumn, rowWidth, type TickBatch } from "../wire/ticks.ts";
-
-// biome-ignore format: a table
-const FLOATS: readonly Exclude<FloatColumn, "other_force">[] = [
-  "time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling",
-  "depth", "axial_force", "lower", "upper", "proxy", "direction",
-];
+import { BYTE_COLUMNS, FLOAT_COLUMNS, rowWidth, type TickBatch } from "../wire/ticks.ts";
 
 /** Ticks that are missing before `next`: times but no values, so that the gap is visible, and the states of `next`. */
 export function gapBefore(next: TickBatch, from: number, period: number): TickBatch {
   const count = next.firstTick - from;
   const floats = Object.fromEntries(
-    FLOATS.map((name) => [name, new Float32Array(count * rowWidth(name, next.membranes)).fill(Number.NaN)]),
+    FLOAT_COLUMNS.map((name) => [name, new Float32Array(count * rowWidth(name, next.membranes)).fill(Number.NaN)]),
   ) as TickBatch["floats"];
   for (let i = 0; i < count; i++) floats.time[i] = i * period;
   const bytes = Object.fromEntries(

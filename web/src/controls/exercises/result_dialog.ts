@@ -1,3 +1,4 @@
+import { unbroken } from "../../format.ts";
 import { element, named } from "../../panel.ts";
 import { showMoment } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
@@ -7,7 +8,6 @@ import type { ExerciseOverview, RecordingEntry, RecordingTrace, Result } from ".
 import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
-import { coachPart } from "./coach.ts";
 import { expertButton, expertSource, expertTrace, judgedBy } from "./expert.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
@@ -222,3 +222,20 @@ export function tracePath({ recording, events }: Pick<Result, "recording" | "eve
 }
 
 const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+/**
+ * One thing to change next time, and one that went well. Empty if the coach has nothing to say. watch: shows the worst
+ * moment, at this time of the run (s).
+ */
+function coachPart({ coaching }: Pick<Result, "coaching">, watch?: (time: number) => HTMLElement): HTMLElement[] {
+  const [change, good] = [coaching.change[0], coaching.good[0]];
+  const when = change?.time ?? null;
+  const part = (kind: string, title: string, text: string, ...more: HTMLElement[]): HTMLElement =>
+    element("section", { class: `coach ${kind}` }, element("h3", {}, title), element("p", {}, unbroken(text)), ...more);
+  return [
+    ...(change
+      ? [part("change", "What to change next time", change.text, ...(watch && when !== null ? [watch(when)] : []))]
+      : []),
+    ...(good ? [part("good", "What went well", good.text)] : []),
+  ];
+}

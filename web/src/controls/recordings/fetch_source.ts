@@ -3,7 +3,7 @@ import { Source } from "../../state/source.ts";
 import { type Api, recordingPath } from "../../wire/api.ts";
 import { FrameSplitter } from "../../wire/length_prefixed.ts";
 import type { RecordingEntry, RecordingOverview } from "../../wire/messages.ts";
-import { BYTE_COLUMNS, decodeTicks, rowWidth, type TickBatch } from "../../wire/ticks.ts";
+import { BYTE_COLUMNS, decodeTicks, FLOAT_COLUMNS, rowWidth, type TickBatch } from "../../wire/ticks.ts";
 
 /** Limit for the page's memory: 11 minutes at 1600 Hz. The rest stays in the file only. */
 const MOST_TICKS = 1 << 20;
@@ -70,8 +70,6 @@ function take(source: Source, batch: TickBatch, period: number): void {
 
 /** Bytes of one tick in a frame. */
 function tickBytes(membranes: number): number {
-  const floats = ["time", "position", "axis", "tip", "model_force", "force_scale", "force", "ceiling"] as const;
-  const each = ["depth", "axial_force", "lower", "upper", "proxy", "direction"] as const;
-  const numbers = [...floats, ...each].reduce((sum, name) => sum + rowWidth(name, membranes), 0);
+  const numbers = FLOAT_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);
   return 4 * numbers + BYTE_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);
 }

@@ -1,12 +1,12 @@
 import type { Polyline } from "./polyline.ts";
 
+const BRIDGED = 160; // points
+
 /**
  * Decimates the line through `xs`, `ys` (pixels) for drawing. Consecutive points in one pixel column become at most
  * four: the first, the lowest, the highest and the last, in their order. The picture is the same to the pixel, so a
  * spike of one tick keeps its full height. A y that is NaN is a gap; a few points whose x is NaN are left out.
  */
-const BRIDGED = 160; // points
-
 export function decimate(xs: Float32Array, ys: Float32Array, from: number, to: number, out: Polyline): void {
   let first = -1;
   let last = -1;
