@@ -30,6 +30,7 @@ import { Trail } from "./trail.ts";
 const ACTIVE = codeOf("state", "active");
 const BEFORE_MM = 3; // in front of the skin: so far out, the needle is always in the picture
 const BELOW_MM = 3; // drawn depth below the last of the sheets
+const WIDER = 1.8; // times the tissue's width, on the stage: a needle that stands upright leaves room for it
 const LEAST_HEIGHT_PX = 40; // of the tissue, for a scale of depths beside it
 
 /** Everything that the view draws for one moment of a source. */
@@ -37,6 +38,7 @@ export class World {
   readonly moment = new Moment();
   extent: Extent | null = null;
   private scene: SceneView | null = null;
+  private shape = "";
   private readonly needle: Needle;
   private readonly membranes: Membranes;
   private readonly block: Block;
@@ -75,12 +77,16 @@ export class World {
 
   /** Builds the scene. Returns whether its geometry changed. */
   build(scene: SceneView): boolean {
-    const before = this.scene && shapeOf(this.scene);
+    const wider = this.nameless && scene.lumen.length === 0 ? WIDER : 1;
+    const before = this.shape;
     this.scene = scene;
-    if (before === shapeOf(scene)) return false;
+    this.shape = `${wider} ${shapeOf(scene)}`;
+    if (before === this.shape) return false;
     this.moment.tick = -1;
-    this.extent = extentOf(scene);
-    const { length, size } = this.extent;
+    const extent = extentOf(scene);
+    const { length } = extent;
+    const size = wider * extent.size;
+    this.extent = { ...extent, size };
     this.needle.build(scene, length);
     this.ghost.build(scene, length);
     const asBlock = this.block.build(scene, size);
