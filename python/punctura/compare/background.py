@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
+import time
 from pathlib import Path
 
 NICE = "PUNCTURA_LAB_NICE"
 LOWEST = 19
+
+
+def processor_s(process: int) -> float:
+    """The processor time that a process has taken, s; infinite where the system does not say it, as outside Linux."""
+    try:
+        return time.clock_gettime(~process << 3 | 2)  # the number of its clock
+    except (AttributeError, OSError):
+        return math.inf
 
 
 def step_back() -> None:

@@ -21,6 +21,8 @@ from pydantic_core import to_json
 from starlette.responses import Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
 
+from punctura.compare.background import processor_s
+
 # Python puts the present folder first on its path. There a user's file named numpy.py would run as code.
 _START = (
     "import sys; sys.path[:] = filter(None, sys.path); "
@@ -28,6 +30,7 @@ _START = (
 )
 WAIT_S = 2.0
 ENDS_S = 0.01  # between two looks whether a worker that has closed its output has ended
+STARVED_S = 3.0  # after which a worker that had less than half of a processor says so
 ALIVE_S = 0.25  # after which a client that has gone is noticed
 LONGEST_S = 1800.0  # of one computation
 NOTHING = b"\n"
@@ -84,13 +87,19 @@ class Line:
 
 
 def lines_of(
-    command: list[str], asked: bytes, failed: Callable[[str], bytes], advice: str, folder: Path | None = None
+    command: list[str],
+    asked: bytes,
+    failed: Callable[[str], bytes],
+    advice: str,
+    folder: Path | None = None,
+    starved: bytes = NOTHING,
 ) -> Iterator[bytes]:
     """The lines of a worker that reads `asked` from standard input. Closing the iterator ends the worker.
 
     failed: the line for a worker that ended early, from the reason. advice: what to do if it takes too long. folder:
-    where it works. An empty line comes after ALIVE_S without another, so that a client that has gone is noticed. After
-    LONGEST_S the worker is ended, unless a line comes: it may be the result, so the worker gets WAIT_S to end.
+    where it works. starved: the line for one that gets no processor, beside other work. An empty line comes after
+    ALIVE_S without another, so that a client that has gone is noticed. After LONGEST_S the worker is ended, unless a
+    line comes: it may be the result, so the worker gets WAIT_S to end.
     """
     environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile() as given:
@@ -110,9 +119,14 @@ def lines_of(
         lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         reader = threading.Thread(target=_read, args=(worker.stdout, lines), name="punctura-lab", daemon=True)
         reader.start()
+        since, used = clock(), 0.0
         try:
             while line := _next(lines):
                 quiet = line == NOTHING
+                if clock() - since >= STARVED_S:
+                    before, since, used = (since, used), clock(), processor_s(worker.pid)
+                    if quiet and used - before[1] < (since - before[0]) / 2:
+                        line = starved
                 if quiet and _has_ended(worker):
                     _kill(worker)  # the children of a worker that has died keep its output open
                 elif clock() > (ends_at if quiet else ends_at + WAIT_S):

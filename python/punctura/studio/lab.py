@@ -124,9 +124,13 @@ def _number(asked: QueryParams, name: str) -> float:
 def _lines(job: Job, line: Line) -> Iterator[bytes]:
     """The worker's lines as they come, in turn."""
     asked, failed = job.model_dump_json().encode(), lambda why: LabFailure(error=why).model_dump_json().encode() + b"\n"
+
+    def waiting(words: str) -> bytes:
+        return LabProgress(share=0.0, run=words).model_dump_json().encode() + b"\n"
+
+    starved = waiting("waiting for the processor")
     return line.in_turn(
-        lambda: lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording"),
-        lambda words: LabProgress(share=0.0, run=words).model_dump_json().encode() + b"\n",
+        lambda: lines_of(COMMAND, asked, failed, "try fewer runs, or a shorter recording", starved=starved), waiting
     )
 
 

@@ -4,10 +4,12 @@ import concurrent.futures
 import http.client
 import io
 import json
+import math
 import os
 import re
 import socket
 import sys
+import time
 import urllib.error
 import urllib.parse
 import urllib.request
@@ -15,6 +17,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from punctura.compare import background
 from punctura.studio import computing, lab
 from waiting import PATIENCE_S, wait_until
 
@@ -134,6 +137,17 @@ def test_a_computation_that_hangs_is_ended_with_its_children_and_told(served, mo
     _, body = get(served, f"/api/lab/{address}", **VARIATION)
     assert "was ended because it took more than 30 minutes; try fewer runs" in body.decode()
     wait_until(lambda: ended(hangs))
+
+
+def test_a_computation_without_a_processor_says_so_and_one_that_computes_does_not(monkeypatch):
+    monkeypatch.setattr(computing, "STARVED_S", 0.5)
+    busy = "import time; end = time.process_time() + 1\nwhile time.process_time() < end: pass"
+    seen = []
+    for program, used in (("import time; time.sleep(1.2)", 0.0), (busy, None)):
+        monkeypatch.setattr(computing, "processor_s", lambda _, used=used: math.inf if used is None else used)
+        seen.append(set(computing.lines_of([sys.executable, "-c", program], b"", str.encode, "", starved=b"starved")))
+    assert seen == [{b"\n", b"starved"}, {b"\n"}]
+    assert 0 < background.processor_s(os.getpid()) <= time.process_time() + 1
 
 
 @pytest.mark.parametrize("program", ["print('result')", "print('result'); raise SystemExit(1)"])

@@ -41,7 +41,7 @@ const comparisons: Panel = (host, app) => {
     inLine.append(row);
     try {
       const report = (share: number, run: string): void => {
-        bar.value = share;
+        bar.value = Math.max(bar.value, share); // one that waits says 0
         words.textContent = `${title}: ${runWords(run, names)}`;
       };
       const done = await compute(app.api, job, report, stop.signal);
