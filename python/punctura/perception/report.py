@@ -24,7 +24,14 @@ from punctura.perception.analysis import (
     belief_of,
 )
 from punctura.perception.protocol import Protocol
-from punctura.perception.session import SessionError, check_header, delete_participant, read_session, sessions
+from punctura.perception.session import (
+    SessionError,
+    check_header,
+    check_lines,
+    delete_participant,
+    read_session,
+    sessions,
+)
 from punctura.perception.table import TABLES, save_tables
 from punctura.results import JsonObject
 
@@ -59,6 +66,7 @@ def report_of_folder(protocol: Protocol, folder: Path) -> Analysis:
         lines = read_session(path)
         if lines:  # a kill may have left a file without its first line
             check_header(lines[0], protocol, path)
+            check_lines(lines[1:], protocol, path)
             found[path.stem] = lines
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import math
 import os
 import re
 from collections.abc import Sequence
@@ -167,6 +168,24 @@ def check_header(header: JsonObject, protocol: Protocol, path: Path) -> None:
                 f"{path} is a session of another protocol or of a changed one ({key} {header.get(key)!r}, now "
                 f"{wanted!r}): give the same protocol again, or another folder"
             )
+    if header["participant"] != path.stem:
+        raise SessionError(f"{path} is the session of {header['participant']}: give the file its old name")
+
+
+def check_lines(lines: Sequence[JsonObject], protocol: Protocol, path: Path) -> None:
+    """Raises SessionError if a trial is none of the protocol: the file was changed by hand."""
+    shown = {*protocol.levels, *([protocol.catch.level] if protocol.catch else [])}
+    for number, line in enumerate(lines):
+        try:
+            numbers = [value for one in line["felt"] for value in vars(Felt(**one)).values()]
+            sound = all(map(math.isfinite, numbers)) and len(line["felt"]) == protocol.intervals
+            known = line["answer"] in protocol.answers if protocol.answers else float(line["answer"]) > 0
+            sound &= known and line["position"] in range(protocol.intervals) and line["level"] in shown
+            sound &= line["kind"] in ("practice", "trial", "catch") and line["block"] >= 0
+        except (TypeError, ValueError):
+            sound = False
+        if not sound or line["trial"] != number:
+            raise SessionError(f"{path}, line {number + 2}: is no trial of this session; restore the file from a copy")
 
 
 def sessions(folder: Path) -> list[Path]:

@@ -21,6 +21,7 @@ from punctura.perception import (
     read_session,
 )
 from punctura.perception.observer import Senses
+from punctura.perception.report import report_of_folder
 
 
 @pytest.fixture(scope="module")
@@ -99,6 +100,24 @@ def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: 
     path.write_text("\n".join(lines) + "\n")
     with pytest.raises(SessionError, match="trial 4 is not the one"):
         Session(senses.protocol, tmp_path, "P01")
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"answer": "maybe"}, {"position": 7}, {"level": 9.9}, {"felt": []}, {"trial": 3}, {"kind": ""}]
+)
+def test_a_trial_that_was_changed_by_hand_is_not_analysed(
+    tmp_path: Path, senses: Senses, wrong: dict[str, object]
+) -> None:
+    Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "P01", 7)
+    path = tmp_path / "P01.jsonl"
+    lines = path.read_text().splitlines()
+    lines[5] = json.dumps(json.loads(lines[5]) | wrong)
+    path.write_text("\n".join(lines) + "\n")
+    with pytest.raises(SessionError, match="line 6: is no trial of this session"):
+        report_of_folder(senses.protocol, tmp_path)
+    path.rename(tmp_path / "P02.jsonl")
+    with pytest.raises(SessionError, match="is the session of P01"):
+        report_of_folder(senses.protocol, tmp_path)
 
 
 def test_people_and_observers_have_their_own_folders(tmp_path: Path, senses: Senses) -> None:
