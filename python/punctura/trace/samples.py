@@ -135,7 +135,7 @@ def smeared(*air: Array) -> int:
     from sample to sample are not. A filter makes changes that are like the next ones, or, a mean of k samples, the
     reverse of those k samples before.
     """
-    parts = [change - change.mean() for one in air if len(change := np.diff(one)) >= SHORTEST]
+    parts = [_without_bend(change) for one in air if len(change := np.diff(one)) >= SHORTEST]
     count = sum(map(len, parts))
     if count < AIR - 1:
         return 0
@@ -149,6 +149,12 @@ def smeared(*air: Array) -> int:
     reverse = alike[width] < -max(REVERSE, chance) and alike[1] > -NEXT
     smooth = alike[1] > max(NEXT, chance) or reverse
     return width if width > 1 and smooth and not hum else 0
+
+
+def _without_bend(values: Array) -> Array:
+    """What a parabola leaves of the values (n,): a soft layer bends the force in air."""
+    powers = np.vander(np.linspace(-1, 1, len(values)), 3)
+    return np.asarray(values - powers @ np.linalg.lstsq(powers, values, rcond=None)[0])
 
 
 def smoothed(*air: Array) -> Iterator[Finding]:

@@ -16,6 +16,8 @@ from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 
 Array = NDArray[np.float64]
 
+AWAY = 0.8  # of the samples in air: a soft layer may begin before the contact
+
 
 @dataclass(frozen=True)
 class Pop:
@@ -60,8 +62,9 @@ class Segments:
         return tuple(b.start for a, b in pairwise(moving) if a.kind != b.kind)
 
     def air(self, force: Array) -> tuple[Array, Array]:
-        """The force (n,), N, in air: before the contact, and after the last withdrawal."""
-        return force[: (self.contact or 0) + 1], force[len(force) if self.exit is None else self.exit :]
+        """The force (n,), N, in air, well away from the tissue: before the contact, and after the last withdrawal."""
+        out = len(force) if self.exit is None else self.exit
+        return force[: int(AWAY * (self.contact or 0)) + 1], force[len(force) - int(AWAY * (len(force) - out)) :]
 
     @property
     def insertions(self) -> int:

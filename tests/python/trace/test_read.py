@@ -169,6 +169,7 @@ def test_slow_noise_of_a_sensor_is_not_called_smoothed(length):
     white = np.random.default_rng(1).normal(size=(20, 300))
     for noise in lfilter([1.0], [1.0, -keeps], white, axis=1):
         assert not list(smoothed(noise[100:]))
+    assert not list(smoothed(white[0] + 0.01 * np.arange(300) ** 2))  # a soft layer
     averaged = np.apply_along_axis(np.convolve, 1, white, np.ones(10) / 10, "valid")
     assert sum(bool(list(smoothed(noise))) for noise in averaged) > 15
 
