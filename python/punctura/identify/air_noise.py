@@ -24,7 +24,10 @@ SHOWN = -2.0  # the same, below which the air shows a noise: more is "not worth 
 
 
 class AirNoise:
-    """The measured force in air: an unknown zero, and noise. A noise that it excludes explains nothing in tissue."""
+    """The measured force in air: an unknown zero, a drift where the models have one, and noise.
+
+    A noise that it excludes explains nothing in tissue.
+    """
 
     def __init__(self, trace: Trace, segments: Segments) -> None:
         n = len(trace)
@@ -33,6 +36,10 @@ class AirNoise:
         ends = [rows[:: -(-len(rows) // MOST)] for rows in (before, after) if len(rows) >= FEWEST]
         self._rows = np.concatenate(ends) if ends else np.arange(0)
         self._force = trace.force[self._rows]
+        shapes = [np.ones(n)]
+        if trace.time is not None and drifts(trace):
+            shapes.append(trace.time - trace.time[0])
+        self._known = np.column_stack(shapes)[self._rows]
         levels = [float(np.median(trace.force[rows])) for rows in ends]
         self._change = abs(levels[1] - levels[0]) if len(levels) == 2 else None
         self._noise = max(spread(trace.force[rows]) for rows in ends) if ends else np.inf
@@ -87,12 +94,19 @@ class AirNoise:
     def _misfit(self, shape: Array, variance: float | None) -> float:
         """-2 ln of the restricted likelihood for the correlations `shape` (m, m); variance None: the most likely."""
         lower = np.linalg.cholesky(shape)
-        one, force = np.linalg.solve(lower, np.column_stack((np.ones(len(shape)), self._force))).T
-        left = force - one * float(one @ force) / float(one @ one)
-        m, squares = len(shape), float(left @ left)
-        v = max(squares / (m - 1) if variance is None else variance, 1e-300)
-        fixed = 2 * float(np.log(np.diag(lower)).sum()) + float(np.log(one @ one))
-        return fixed + (m - 1) * float(np.log(v)) + squares / v
+        columns = np.linalg.solve(lower, np.column_stack((self._known, self._force)))
+        known, force = columns[:, :-1], columns[:, -1]
+        basis, triangle = np.linalg.qr(known)
+        left = force - basis @ (basis.T @ force)
+        free, squares = len(shape) - known.shape[1], float(left @ left)
+        v = max(squares / free if variance is None else variance, 1e-300)
+        fixed = 2 * (np.log(np.diag(lower)).sum() + np.log(np.abs(np.diag(triangle))).sum())
+        return float(fixed + free * np.log(v) + squares / v)
+
+
+def drifts(trace: Trace) -> bool:
+    """Whether a finding says that the zero drifts: then each model has a drift over the time."""
+    return trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
 
 
 def _steepest(trace: Trace) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from punctura import Needle
+from punctura.identify.air_noise import drifts
 from punctura.identify.criteria import Candidate, worth_a_fit
 from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
@@ -123,8 +124,7 @@ def choose(
 ) -> Choice:
     """Tries the models that this trace may ask for, and chooses one."""
     search = Search(trace, segments, needle, report, rig.late)
-    drift = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
-    plain = search.fitted("K06", Model(membranes, drift=drift), search.starts(membranes, False, 3))
+    plain = search.fitted("K06", Model(membranes, drift=drifts(trace)), search.starts(membranes, False, 3))
     assert plain is not None
     choice = Choice(search, plain, plain, most)
     choice.settle()

@@ -15,15 +15,16 @@ from punctura.identify.parameters import Parameters, default_coupling, default_m
 from punctura.identify.verdict import verdicts
 from punctura.identify.walls import without_a_wall
 from punctura.trace import Trace, segment
+from punctura.trace.findings import examine
 from traces import MEMBRANE, NEEDLE, RATE, force_of, motion, trace
 
 
-def fitted(made):
+def fitted(made, drift=False):
     """K06 with one wall, fitted from the truth: no search is needed."""
     row = default_membrane()
     row[:5] = 5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness
     start = Parameters(NEEDLE, np.array([row]), default_coupling(4000.0))
-    return fit(Misfit(made, start), Model(1).names, start)
+    return fit(Misfit(made, start), Model(1, drift=drift).names, start)
 
 
 def doubted(made, extensions=()):
@@ -142,6 +143,14 @@ def test_a_model_that_is_wrong_is_not_called_explained_by_a_noise_that_short_air
         found = fitted(short)
         assert air.allows(*found.noise.most_likely()) and not air.shows(*found.noise.most_likely())
         assert not doubts(short, segment(short), found, (), air).explained.ok
+
+
+def test_a_model_that_is_wrong_is_not_called_explained_by_a_drift_that_the_fit_takes_out():
+    made = changed(lambda depth, force, inward: force * (1 + 0.1 * np.sin(2 * np.pi * depth / 6e-3)))
+    made = examine(replace(made, force=made.force + 0.06 * made.time / made.time[-1]))
+    assert "drift" in [finding.kind for finding in made.findings]
+    whole = segment(made)
+    assert not doubts(made, whole, fitted(made, drift=True), (), AirNoise(made, whole)).explained.ok
 
 
 def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless():
