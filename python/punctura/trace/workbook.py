@@ -17,6 +17,8 @@ from punctura.trace.reading import Reading, only_trace, wanted_sheet
 from punctura.trace.table import Table, check_size, unreadable
 from punctura.trace.trace import TraceError
 
+MEANS = {"mean", "average", "mittelwert", "durchschnitt", "moyenne", "media", "promedio", "平均", "平均值"}
+
 
 def read_workbook(path: Path, reading: Reading, old: bool) -> Table:
     """The sheet that is stated, or the only one that can be a trace. Raises TraceError, OSError.
@@ -26,13 +28,18 @@ def read_workbook(path: Path, reading: Reading, old: bool) -> Table:
     try:
         with path.open("rb") as file:
             names, rows_of = _old_sheets(path) if old else _sheets(path, file)
-            wanted = names if reading.sheet is None else [wanted_sheet(path, names, reading.sheet)]
+            wanted = _specimens(names) if reading.sheet is None else [wanted_sheet(path, names, reading.sheet)]
             tables = {name: _table(path, list(_filled_rows(path, rows_of(name))), reading.decimal) for name in wanted}
     except (TraceError, MissingPackageError):
         raise
     except Exception as error:  # readers raise many types for a damaged file
         raise unreadable(path, "XLS" if old else "XLSX", error) from None
     return only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+
+
+def _specimens(names: list[str]) -> list[str]:
+    """The sheets (n,) without those that are named as the mean of others, unless there are no others."""
+    return [name for name in names if not set(name.casefold().split()) & MEANS] or names
 
 
 Rows = Iterable[Sequence[Any]]

@@ -45,6 +45,12 @@ def test_the_sheet_of_the_only_specimen_is_the_trace(tmp_path):
         check(read_trace(tmp_path / "a.xlsx"))
 
 
+def test_a_sheet_that_is_the_mean_of_the_specimens_is_no_specimen(tmp_path):
+    workbook(tmp_path / "a.xlsx", ["A", "Éprouvette moyenne"])
+    check(read_trace(tmp_path / "a.xlsx"))
+    check(read_trace(tmp_path / "a.xlsx", sheet="Éprouvette moyenne"))
+
+
 def test_one_of_several_specimens_is_chosen_or_all_are_a_folder(tmp_path):
     book = tmp_path / "a.xlsx"
     workbook(book, ["A/B".replace("/", " "), "C"])
