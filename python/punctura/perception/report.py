@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 MOST_PANELS = 12
 INTERVALS = (
-    f"Intervals are {LEVEL:.0%} intervals if the shape of the function is right; of simulated observers, for whom it "
-    "never quite is, {held} held the known number (docs/decisions/perception.md)."
+    f"Intervals are {LEVEL:.0%} intervals if the shape of the function is right; of simulated observers with 2 % "
+    "lapses, for whom it never quite is, {held} held the known number (docs/decisions/perception.md)."
 )
 WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)
 
