@@ -22,6 +22,7 @@ What a block needs and the reader does not is put into an invisible block before
 from __future__ import annotations
 
 import ast
+import atexit
 import contextlib
 import io
 import os
@@ -31,18 +32,32 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
+
+sys.path.append(str(Path(__file__).parents[2] / "tools"))
 
 from markdown_it import MarkdownIt
 from sybil import Document, Example, Region, Sybil
 from sybil.evaluators.python import PythonEvaluator
 from sybil.region import Lexeme
+from warm import warm
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = ("README.md", "CONTRIBUTING.md", "examples/README.md", "docs/*.md")
 INVISIBLE = re.compile(r"<!-- invisible-code-block: (\w+)\n(.*)\n-->", re.S)
 PATIENCE_S = 120
+running = contextlib.ExitStack()
+atexit.register(running.close)
+
+
+@cache
+def punctura_command() -> str:
+    """The program `punctura` of the pages, which starts in a moment."""
+    folder = running.enter_context(tempfile.TemporaryDirectory())
+    words = running.enter_context(warm(Path(folder)))
+    return f'#!/bin/sh\nexec {" ".join(words)} "$@"\n'
 
 
 def run_python(code: str, example: Example) -> None:
@@ -164,7 +179,7 @@ def own_folder(namespace: dict[str, Any]) -> None:
     folder = Path(tempfile.mkdtemp(prefix="punctura-page-"))
     (folder / "bin").mkdir()
     program = folder / "bin" / "punctura"
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m punctura "$@"\n')
+    program.write_text(punctura_command())
     program.chmod(0o755)
     (folder / "work").mkdir()
     (folder / "work" / "run").symlink_to(program)  # ./run VERB is punctura VERB
