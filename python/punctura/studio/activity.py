@@ -153,7 +153,7 @@ class ExerciseActivity:
         self._group, self._second_device = group, second_device
         self._heard = heard or Heard()
         self._attempt: Attempt
-        self._told: ExerciseStatus | None = None
+        self._sent: ExerciseStatus | None = None
         self.end_at: float | None = None
 
     def begin(self, scene: Scene) -> None:
@@ -165,9 +165,9 @@ class ExerciseActivity:
         if self._attempt.settled and self.end_at is None:
             self.end_at = now + LINGER_S
         status = self._status(running=True)
-        if status == self._told:
+        if status == self._sent:
             return []
-        self._told = status
+        self._sent = status
         return [status]
 
     def scene_change(self) -> None:

@@ -47,7 +47,7 @@ class StudioClient:
         self.frames: list[Frame] = []
         self.last: Frame | None = None
         self.ticks = self.gaps = 0  # gaps: frames of a run that do not follow the frame before
-        self.run = 0  # that was told last
+        self.run = 0  # of the last scene message
         self.closed: tuple[int, str] | None = None  # code and reason
         self._keep = keep_frames
         self._ids = itertools.count(1)

@@ -50,7 +50,7 @@ class OtherSolver:
         return force
 
 
-TELL_EVERY_S = 0.25
+SEND_EVERY_S = 0.25
 INTERVAL = 1.96  # standard deviations on either side of a 95 % interval
 
 
@@ -61,7 +61,7 @@ class Estimator:
     def __init__(self, scene: Scene, rate: float) -> None:
         self._period = 1 / rate
         self._live = LiveEstimate()
-        self._told = -np.inf  # time of the last message, s
+        self._sent = -np.inf  # time of the last message, s
         self.change(scene)
 
     def change(self, scene: Scene) -> None:
@@ -76,9 +76,9 @@ class Estimator:
         force = -np.sum(ticks.model_force * ticks.axis, axis=1)
         found = np.flatnonzero(self._live.run(depth, force, self._period)["punctured"])
         now = float(ticks.time[-1])
-        if not len(found) and 0 <= now - self._told < TELL_EVERY_S:
+        if not len(found) and 0 <= now - self._sent < SEND_EVERY_S:
             return None
-        self._told = now
+        self._sent = now
         live = self._live
         return EstimateMessage(
             on=True,

@@ -168,7 +168,7 @@ class Guard:
             nonlocal begun
             if message["type"] == "http.response.start":
                 begun = True
-                _dress(message, scope["path"])
+                _add_headers(message, scope["path"])
                 if rest:  # else the server would read and drop it, however long it is
                     MutableHeaders(scope=message)["connection"] = "close"
             await send(message)
@@ -217,7 +217,7 @@ def _is_loopback(host: str) -> bool:
         return False
 
 
-def _dress(message: Message, path: str) -> None:
+def _add_headers(message: Message, path: str) -> None:
     headers = MutableHeaders(scope=message)
     for name, value in _COMMON.items():
         headers[name] = value
@@ -241,6 +241,6 @@ async def _refuse(scope: Scope, send: Send, no: Refused) -> None:
             (b"connection", b"close"),
         ],
     }
-    _dress(start, "")
+    _add_headers(start, "")
     await send(start)
     await send({"type": f"{kind}.body", "body": body})
