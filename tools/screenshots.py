@@ -19,6 +19,7 @@ import studio_states as do
 from chromium import launch, on_the_bench
 from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
+from stage_states import gave
 from studio_process import StudioProcess
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,9 +32,11 @@ STILL_MS = 1500  # until plots and view are drawn
 
 # name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, do.Act, tuple[int, int], str], ...] = (
+    ("stage", "venipuncture", gave, LAPTOP, "light"),
+    ("stage-dark", "venipuncture", gave, LAPTOP, "dark"),
+    ("stage-phone", "venipuncture", gave, PHONE, "light"),
     ("tour", "venipuncture", do.tour, LAPTOP, "light"),
     ("pop", "k06-fig10", do.popped, LAPTOP, "light"),
-    ("pop-dark", "k06-fig10", do.popped, LAPTOP, "dark"),
     ("again", "venipuncture", do.again, LAPTOP, "light"),
     ("vein", "venipuncture", do.popped, LAPTOP, "light"),
     ("editor", "k06-fig10", do.editor, LAPTOP, "light"),
@@ -50,9 +53,7 @@ STATES: tuple[tuple[str, str, do.Act, tuple[int, int], str], ...] = (
     ("trace-dark", "k06-fig10", do.identified, LAPTOP, "dark"),
     ("trace-phone", "k06-fig10", do.identified, PHONE, "light"),
     ("trace-phone-dark", "k06-fig10", do.identified, PHONE, "dark"),
-    ("phone", "venipuncture", do.popped, PHONE, "light"),
     ("tablet", "venipuncture", do.popped, TABLET, "light"),
-    ("tablet-dark", "epidural", do.popped, TABLET, "dark"),
 )
 
 # What a person does after the window has its size.
@@ -113,8 +114,8 @@ def take(browser: Browser, out: Path, wanted: list[str]) -> None:
     for name, scene, act, size, colours in STATES:
         if wanted and name not in wanted:
             continue
-        touched = size[0] <= TOUCHED
-        with opened(browser, scene, LAPTOP if touched else size, colours, touched) as page:
+        touched, stage = size[0] <= TOUCHED, name.startswith("stage")
+        with opened(browser, scene, LAPTOP if touched else size, colours, touched, not stage) as page:
             act(page)
             page.set_viewport_size({"width": size[0], "height": size[1]})
             if name in AFTER:
