@@ -48,6 +48,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (YES, "levels = [0.0005,", "levels = [-0.0005,", "stimulus.levels[0]", "must be"),
         (YES, "catch_level = 0.012", "catch_level = -1", "trials.catch_level", "must be"),
         (RIGHT, "[trials]", "[trials]\ncatch = 9\ncatch_level = 0.2", "trials.catch_level", "where the levels are"),
+        (YES, '"yes_no"', '"magnitude"\nanswers = {yes = "y"}', "answers.yes", "magnitude: a number is typed"),
         (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
         (ADJUST, "reference = 0.41", "reference = 0.1", "stimulus.reference", "between the levels"),
         (ADJUST, 'task = "adjustment"', 'task = "two_intervals"', "method", "both be adjustment"),
