@@ -109,6 +109,11 @@ def choose_columns(
         matches = _different(candidates(role, names, taken), table)
         if len(matches) == 1:
             chosen[role] = matches[0]
+            if role == "force" and (signed := _signed(matches[0], table)) is not None:
+                text = f"{names[matches[0]]!r} has lost its sign, so {names[signed]!r} is taken"
+                findings.append(Finding("unsigned", f"{text}: it is the same force with its sign", True))
+                chosen[role] = signed
+                continue
             if matches == by_unit(role, names, taken):
                 text = f"{names[matches[0]]!r} is taken as the {role}: only it has a unit of {_QUANTITIES[role]}"
                 findings.append(
@@ -154,6 +159,21 @@ def _different(matches: Sequence[int], table: Mapping[str, Array]) -> list[int]:
         if len(held) and np.ptp(held) > 0 and not alike:
             kept[i] = values
     return list(kept) or list(matches)
+
+
+def _signed(force: int, table: Mapping[str, Array]) -> int | None:
+    """The column of which this force is the absolute value, where it has both signs; None if there is none."""
+    names = list(table)
+    values = table[names[force]]
+    held = values[np.isfinite(values)]
+    apart = 1e-3 * float(np.ptp(held)) if len(held) else 0.0
+    for i, name in enumerate(names):
+        other = table[name]
+        ends = other[np.isfinite(other)] if role_of(split_name(name)[1]) == "force" else ()
+        both = len(ends) > 0 and min(-float(np.min(ends)), float(np.max(ends))) > 10 * apart
+        if both and np.allclose(values, np.abs(other), rtol=1e-3, atol=apart, equal_nan=True):
+            return i
+    return None
 
 
 def _size(role: str, name: str, units: Mapping[str, str], table: Mapping[str, Array], problems: list[Problem]) -> float:

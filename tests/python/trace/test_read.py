@@ -111,6 +111,13 @@ def test_columns_that_nobody_can_guess_are_asked_for(tmp_path):
         read_trace(path, {"speed": "a"})
 
 
+def test_a_force_that_has_lost_its_sign_gives_way_to_the_one_that_has_it(tmp_path):
+    made = trace()
+    columns = {"depth_mm": made.depth * 1e3, "rf3_N": -made.force, "absolute_force_N": np.abs(made.force)}
+    read = read_trace(write_csv(tmp_path / "a.csv", columns))
+    assert read.force == pytest.approx(made.force) and {"unsigned", "reversed_sign"} <= kinds(read)
+
+
 def test_a_file_without_names_is_read_by_numbers(tmp_path):
     made = trace()
     np.savetxt(tmp_path / "a.csv", np.column_stack((made.depth, made.force)), delimiter=",")
