@@ -80,7 +80,8 @@ class PerceptionSitting:
         now = self._shown
         number = now.any_number and _NUMBER.fullmatch(answer) and float(answer) > 0
         if question == now.question and (number or answer in (one.name for one in now.answers)):
-            self._then(answer)
+            then, self._then = self._then, lambda _: None  # once: a defect in it must not save an answer twice
+            then(answer)
 
     def close(self) -> None:
         """After the studio has stopped."""
