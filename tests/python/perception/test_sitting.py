@@ -14,6 +14,7 @@ from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import Session, SessionError, load_protocol, read_session
 from punctura.record import open_recording
+from punctura.record.append_file import AppendFile
 from punctura.record.header import from_text
 from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
@@ -69,6 +70,10 @@ def sat(folder: Path, text: str, limits: ForceLimits | None = None) -> Iterator[
             yield Person(page), server
     finally:
         server.stop()
+
+
+def raised(error: Exception) -> None:
+    raise error
 
 
 def saved(folder: Path) -> list[dict]:
@@ -147,7 +152,8 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
 
 
 def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """By a limit, by a fault, without force; and an answer that the disk does not take is asked for again."""
+    """By a limit, by a fault, without force, on a full disk; and an answer that the disk does not take is asked for
+    again."""
     (tmp_path / "out").mkdir()
     left, others = (tmp_path / "out" / f"P01-0000-{name}.parquet" for name in ("7", "0005-1"))  # P01's, P01-0000's
     for file in (left, others):
@@ -169,14 +175,20 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         server.session.run.loop.pause()  # as without the dead-man's button
         person.goes_through()
         person.reads("repeated: the force was not on")
+        full, write = OSError(errno.ENOSPC, "No space left"), AppendFile.write
+        with monkeypatch.context() as now:
+            now.setattr("punctura.record.writer.LAST_TRIES_S", 0.1)
+            now.setattr(AppendFile, "write", lambda file, data: raised(full) if file.size else write(file, data))
+            person.answers("Go on")
+            person.goes_through()
+            person.reads("o space left")
         person.answers("Go on")
         person.goes_through()
         person.reads("Did it pop?")
         add = Session.add
-        full = OSError(errno.ENOSPC, "the disk is full")
-        monkeypatch.setattr(Session, "add", lambda *_: (_ for _ in ()).throw(full))
+        monkeypatch.setattr(Session, "add", lambda *_: raised(full))
         person.answers("yes")
-        person.reads("the disk is full")
+        person.reads("o space left")
         monkeypatch.setattr(Session, "add", add)
         person.answers("Go on")
         person.reads("Trial 2")
@@ -213,9 +225,6 @@ def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_an
 
 
 def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def unplugged(run: Run) -> None:
-        raise DeviceError("cannot open")
-
     with sat(tmp_path, YES) as (person, server):
         person.reads("The session begins.")
         assert person.page.ask(do="trip_fault")["ok"]
@@ -228,13 +237,13 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
         assert person.page.ask(do="pause")["ok"]
         person.reads("repeated: the force was turned off")
         with monkeypatch.context() as now:
-            now.setattr(Run, "start", unplugged)
+            now.setattr(Run, "start", lambda _: raised(DeviceError("cannot open")))
             person.answers("Go on")
             person.reads("repeated: cannot open")
         person.answers("Go on")
         person.reads("push")
         with monkeypatch.context() as now:
-            now.setattr(Run, "start", unplugged)
+            now.setattr(Run, "start", lambda _: raised(DeviceError("cannot open")))
             assert person.page.ask(do="trip_fault")["ok"]
             person.reads("repeated: the device")
         person.answers("Go on")
