@@ -6,7 +6,7 @@ import math
 import os
 from collections.abc import Iterator
 from decimal import Decimal
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from punctura import Scene
@@ -19,8 +19,8 @@ from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
 LEAST = {"constant": 40, "staircase": 40, "quest": 20, "adjustment": 6}  # scored trials for a fit
-LEAST_LEVELS = 3
-MOST_LEVELS, MOST_TRIALS = 100, 10_000
+LEAST_LEVELS, MOST_LEVELS, MOST_TRIALS = 3, 100, 10_000
+BOUNDS = {"practice": (0, 1000), "catch": (0, 1000), "up": (1, 100), "down": (1, 100)}
 
 
 def protocol_names() -> list[str]:
@@ -40,14 +40,11 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     problems += found
     if file is None:
         raise ConfigurationError(problems, str(path))
-    problems += [*_answers(file), *_trials(file), *_stimulus(file, scene)]
+    wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
+    problems += [*_answers(file), *(Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad)]
     if scene is None or problems:
         raise ConfigurationError(problems, str(path))
-    shown = _Shown(file, scene)
-    protocol = shown.protocol(path)
-    if shown.problems or protocol is None:
-        raise ConfigurationError(shown.problems, str(path))
-    return protocol
+    return _shown(path, file, scene)
 
 
 def check_device(protocol: Protocol, limits: ForceLimits) -> None:
@@ -60,6 +57,16 @@ def check_device(protocol: Protocol, limits: ForceLimits) -> None:
         raise ConfigurationError(problems, str(protocol.path))
 
 
+def _float(value: Decimal | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, tuple):
+        return [float(one) for one in value]
+    return float(value) if isinstance(value, Decimal) else value
+
+
 def _answers(file: ProtocolFile) -> Iterator[Problem]:
     wanted = ANSWERS[file.task]
     if not file.question.strip():
@@ -67,9 +74,7 @@ def _answers(file: ProtocolFile) -> Iterator[Problem]:
     used: dict[str, str] = {}
     for name, key in file.answers.items():
         if name not in wanted:
-            yield Problem(
-                f"answers.{name}", key, f"is no answer of {file.task}: {', '.join(wanted) or 'a number is typed'}"
-            )
+            yield Problem(f"answers.{name}", key, f"is no answer of {file.task}, which has {', '.join(wanted)}")
         elif len(key) != 1 or not key.isprintable() or key.isspace():
             yield Problem(f"answers.{name}", key, "must be one key, as a letter or a digit")
         elif key.casefold() in used:
@@ -80,205 +85,164 @@ def _answers(file: ProtocolFile) -> Iterator[Problem]:
         yield Problem(f"answers.{missing[0]}", MISSING, "is missing; give all answers a key, or none")
 
 
-def _trials(file: ProtocolFile) -> Iterator[Problem]:
-    given, levels = file.trials, len(file.stimulus.levels)
-    if file.seed < 0:
-        yield Problem("seed", file.seed, "must be 0 or more")
-    wanted, other = ("per_level", "total") if file.method == "constant" else ("total", "per_level")
-    if getattr(given, other) is not None:
-        yield Problem(f"trials.{other}", getattr(given, other), f"is not for {file.method}; give {wanted}")
-    count = getattr(given, wanted)
-    scored = (count or 0) * (levels if file.method == "constant" else 1)
-    if count is None:
-        yield Problem(f"trials.{wanted}", MISSING, f"is missing; {file.method} needs it")
-    elif not LEAST[file.method] <= scored <= MOST_TRIALS:
-        few = f"{scored} trials are too few for the fit" if scored < LEAST[file.method] else f"are {scored} trials"
-        reason = f"{few}: {file.method} needs from {LEAST[file.method]} to {MOST_TRIALS} without practice and catch"
-        yield Problem(f"trials.{wanted}", count, reason)
-    elif given.blocks < 1 or count % given.blocks:
-        yield Problem("trials.blocks", given.blocks, f"must divide {wanted}, {count}, so that all blocks are alike")
-    if (file.method == "adjustment") != (file.task == "adjustment"):
-        yield Problem("method", file.method, "and task must both be adjustment, or none of them")
-    elif file.method == "adjustment" and given.practice + given.catch:
-        yield Problem("trials.practice", given.practice, "and catch are not for adjustment; leave both out")
-    for key in ("practice", "catch"):
-        if not 0 <= getattr(given, key) <= 1000:
-            yield Problem(f"trials.{key}", getattr(given, key), "must be from 0 to 1000")
-    if (given.catch > 0) != (given.catch_level is not None):
-        key = "catch_level" if given.catch_level is None else "catch"
-        yield Problem(f"trials.{key}", MISSING, "is missing: give both catch and catch_level, or none of them")
-    for key in ("up", "down"):
-        if not 1 <= getattr(given, key) <= 100:
-            yield Problem(f"trials.{key}", getattr(given, key), "must be from 1 to 100")
+# The following give rows: whether this is wrong, the key, its value, and what is right.
+Row = tuple[bool, str, object, str]
+
+
+def _trials(file: ProtocolFile) -> Iterator[Row]:
+    given, method = file.trials, file.method
+    wanted, other = ("per_level", "total") if method == "constant" else ("total", "per_level")
+    extra, count, least = getattr(given, other), getattr(given, wanted), LEAST[method]
+    scored = (count or 0) * (len(file.stimulus.levels) if method == "constant" else 1)
+    few = f"{scored} trials are too few for the fit" if scored < least else f"are {scored} trials"
+    counts = least <= scored <= MOST_TRIALS
+    yield file.seed < 0, "seed", file.seed, "must be 0 or more"
+    yield extra is not None, f"trials.{other}", extra, f"is not for {method}; give {wanted}"
+    yield count is None, f"trials.{wanted}", MISSING, f"is missing; {method} needs it"
+    reason = f"{few}: {method} needs from {least} to {MOST_TRIALS} without practice and catch"
+    yield count is not None and not counts, f"trials.{wanted}", count, reason
+    reason = f"must divide {wanted}, {count}, so that all blocks are alike"
+    yield counts and (given.blocks < 1 or count % given.blocks > 0), "trials.blocks", given.blocks, reason
+    adjusts = method == "adjustment", file.task == "adjustment"
+    yield adjusts[0] != adjusts[1], "method", method, "and task must both be adjustment, or none of them"
+    reason = "and catch are not for adjustment; leave both out"
+    yield all(adjusts) and given.practice + given.catch > 0, "trials.practice", given.practice, reason
+    for key, (low, high) in BOUNDS.items():
+        value = getattr(given, key)
+        yield not low <= value <= high, f"trials.{key}", value, f"must be from {low} to {high}"
+    key = "catch_level" if given.catch_level is None else "catch"
+    reason = "is missing: give both catch and catch_level, or none of them"
+    yield (given.catch > 0) != (given.catch_level is not None), f"trials.{key}", MISSING, reason
     kept = given.up / max(given.up + given.down, 1)
     guess = 0.0 if file.task == "yes_no" else 1 / max(len(ANSWERS[file.task]), 1)
-    if file.method == "staircase" and kept <= guess:
-        reason = f"with down = {given.down} it seeks {kept:.0%} right answers, which guessing gives; give a larger up"
-        yield Problem("trials.up", given.up, reason)
-    if given.break_s is not None and not 0 < float(given.break_s) <= 3600:
-        yield Problem("trials.break_s", float(given.break_s), "must be more than 0 and at most 3600 s")
+    reason = f"with down = {given.down} it seeks {kept:.0%} right answers, which guessing gives; give a larger up"
+    yield method == "staircase" and kept <= guess, "trials.up", given.up, reason
+    wrong = given.break_s is not None and not 0 < float(given.break_s) <= 3600
+    yield wrong, "trials.break_s", given.break_s, "must be more than 0 and at most 3600 s"
 
 
-def _stimulus(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
-    given = file.stimulus
+def _stimulus(file: ProtocolFile) -> Iterator[Row]:
+    given, key = file.stimulus, "stimulus.levels"
     levels = [float(level) for level in given.levels]
-    if (
-        not all(map(math.isfinite, levels))
-        or not LEAST_LEVELS <= len(levels) <= MOST_LEVELS
-        or sorted(set(levels)) != levels
-    ):
-        reason = f"must be {LEAST_LEVELS} to {MOST_LEVELS} numbers, each larger than the one before"
-        yield Problem("stimulus.levels", levels, reason)
-    elif given.scale == "log" and levels[0] <= 0:
-        yield Problem("stimulus.levels", levels, 'must be more than 0 with scale = "log"')
-    reference = None if given.reference is None else float(given.reference)
-    sides = file.task == "two_intervals" and reference is not None and levels and levels[0] < reference < levels[-1]
-    if given.scale == "log" and file.task != "yes_no" and not sides:
-        yield Problem("stimulus.scale", given.scale, "is for yes_no, and for levels on both sides of a reference")
-    by_solver = given.reference_solver is not None
-    if file.task == "magnitude" and levels and levels[0] <= 0:
-        yield Problem("stimulus.levels", levels, "must be more than 0 for magnitude, whose result is an exponent")
-    if file.task in ("rating", "magnitude") and (file.method != "constant" or file.trials.catch):
-        yield Problem("task", file.task, "is for constant stimuli without catch trials: change method or catch")
-    if file.task in ONE_INTERVAL:
+    count = LEAST_LEVELS <= len(levels) <= MOST_LEVELS
+    reason = f"must be {LEAST_LEVELS} to {MOST_LEVELS} numbers, each larger than the one before"
+    yield not (count and all(map(math.isfinite, levels)) and sorted(set(levels)) == levels), key, levels, reason
+    reason = "must be more than 0 for magnitude, whose result is an exponent"
+    yield file.task == "magnitude" and min(levels, default=1) <= 0, key, levels, reason
+    plain = file.method == "constant" and not file.trials.catch
+    reason = "is for constant stimuli without catch trials: change method or catch"
+    yield file.task in ("rating", "magnitude") and not plain, "task", file.task, reason
+    for name in ("solver", "reference_solver"):
+        value = getattr(given, name)
+        yield value not in (None, "paper", "exact"), f"stimulus.{name}", value, "must be paper or exact"
+
+
+def _reference(file: ProtocolFile) -> Iterator[Row]:
+    """Of the other intervals."""
+    given, task, levels = file.stimulus, file.task, [float(level) for level in file.stimulus.levels]
+    where, reference, catch = "stimulus.reference", _float(given.reference), _float(file.trials.catch_level)
+    if task in ONE_INTERVAL:
         for key in ("reference", "reference_solver"):
-            if getattr(given, key) is not None:
-                yield Problem(
-                    f"stimulus.{key}", _plain(getattr(given, key)), f"is not for {file.task}, of one interval"
-                )
-    elif (reference is None) != by_solver:
-        reason = f"{file.task} needs a reference, a level, or a reference_solver, and not both"
-        yield Problem("stimulus.reference", MISSING if reference is None else reference, reason)
-    elif by_solver and file.trials.catch_level is not None:
-        reason = "is not for reference_solver: the other intervals would have another level; leave catch out"
-        yield Problem("trials.catch_level", float(file.trials.catch_level), reason)
-    elif reference is not None and levels:
-        one_sided = not min(levels) < reference < max(levels)
-        if one_sided and file.task == "adjustment":
-            yield Problem("stimulus.reference", reference, "must lie between the levels for adjustment")
-        if file.trials.catch_level is not None and float(file.trials.catch_level) == reference:
-            yield Problem("trials.catch_level", reference, "is the reference, at which no answer is right")
-        elif file.trials.catch_level is not None and one_sided:
-            catch_level = float(file.trials.catch_level)
-            if (catch_level > reference) != (max(levels) > reference):
-                reason = f"must lie on that side of the reference, {reference:g}, where the levels are"
-                yield Problem("trials.catch_level", catch_level, reason)
-        if not one_sided and (file.method == "staircase" or file.task == "three_intervals"):
-            reason = f"must lie at an end of the levels for {file.method} with {file.task}, which score right answers"
-            yield Problem("stimulus.reference", reference, reason)
-        elif reference in levels and one_sided:
-            reason = "is one of the levels, at which no answer is right; leave it out of levels"
-            yield Problem("stimulus.reference", reference, reason)
-    solvers = ("paper", "exact")
-    for key in ("solver", "reference_solver"):
-        if getattr(given, key) not in (None, *solvers):
-            yield Problem(f"stimulus.{key}", getattr(given, key), f"must be {' or '.join(solvers)}")
-    yield from _paths(file, scene)
-
-
-def _paths(file: ProtocolFile, scene: Scene | None) -> Iterator[Problem]:
-    if scene is None:
+            value = getattr(given, key)
+            yield value is not None, f"stimulus.{key}", value, f"is not for {task}, of one interval"
         return
+    by_solver = given.reference_solver is not None
+    reason = f"{task} needs a reference, a level, or a reference_solver, and not both"
+    yield (reference is None) != by_solver, where, MISSING if reference is None else reference, reason
+    reason = "is not for reference_solver: the other intervals would have another level; leave catch out"
+    yield by_solver and catch is not None, "trials.catch_level", catch, reason
+    if reference is None or not levels:
+        return
+    one_sided = not min(levels) < reference < max(levels)
+    yield one_sided and task == "adjustment", where, reference, "must lie between the levels for adjustment"
+    reason = f"must lie at an end of the levels for {file.method} with {task}, which score right answers"
+    right = file.method == "staircase" or task == "three_intervals"
+    yield not one_sided and right, where, reference, reason
+    reason = "is one of the levels, at which no answer is right; leave it out of levels"
+    yield one_sided and reference in levels, where, reference, reason
+    if catch is not None:
+        reason = "is the reference, at which no answer is right"
+        yield catch == reference, "trials.catch_level", catch, reason
+        other = one_sided and catch != reference and (catch > reference) != (max(levels) > reference)
+        reason = f"must lie on that side of the reference, {reference:g}, where the levels are"
+        yield other, "trials.catch_level", catch, reason
+
+
+def _paths(file: ProtocolFile, scene: Scene) -> Iterator[Row]:
     given, known = file.stimulus, [one.path for one in scene.fields()]
     quantity = given.variable in QUANTITIES
-    asked = {} if quantity else {"stimulus.variable": given.variable}
-    if quantity and given.solve is not None:
-        asked["stimulus.solve"] = given.solve
-    for key, path in [*asked.items(), *((f"values.{path}", path) for path in file.values)]:
-        if path not in known:
-            words = f" or one of {', '.join(QUANTITIES)}" if key == "stimulus.variable" else ""
-            yield Problem(key, path, f"is not a number of the scene{words}{nearest(path, known)}")
+    asked = [(f"values.{path}", path) for path in file.values]
+    asked += [("stimulus.solve", given.solve or "")] if quantity else [("stimulus.variable", given.variable)]
+    for key, path in asked:
+        words = f" or one of {', '.join(QUANTITIES)}" if key == "stimulus.variable" else ""
+        yield path not in ("", *known), key, path, f"is not a number of the scene{words}{nearest(path, known)}"
     for key in ("solve", "between"):
-        if quantity and getattr(given, key) is None:
-            yield Problem(f"stimulus.{key}", MISSING, f"is missing; {given.variable} solves a number of the scene")
-        elif not quantity and getattr(given, key) is not None:
-            yield Problem(f"stimulus.{key}", _plain(getattr(given, key)), f"is for {' and '.join(QUANTITIES)} alone")
-    ends = given.between
-    if quantity and ends is not None and not (len(ends) == 2 and float(ends[0]) < float(ends[1])):
-        yield Problem("stimulus.between", _plain(ends), "must be two numbers, the smaller one first")
+        value = getattr(given, key)
+        reason = f"is missing; {given.variable} solves a number of the scene"
+        yield quantity and value is None, f"stimulus.{key}", MISSING, reason
+        yield not quantity and value is not None, f"stimulus.{key}", value, f"is for {' and '.join(QUANTITIES)} alone"
+    ends = given.between or ()
+    wrong = quantity and given.between is not None and not (len(ends) == 2 and ends[0] < ends[1])
+    yield wrong, "stimulus.between", ends, "must be two numbers, the smaller one first"
     names = [placed.name for placed in scene.membranes]
-    if given.membrane is not None and names.count(given.membrane) != 1:
-        yield Problem("stimulus.membrane", given.membrane, f"must be one of the scene's membranes: {', '.join(names)}")
-    if given.variable in file.values:
-        yield Problem(f"values.{given.variable}", given.variable, "is the variable; leave it out here")
+    reason = f"must be one of the scene's membranes: {', '.join(names)}"
+    yield given.membrane is not None and names.count(given.membrane) != 1, "stimulus.membrane", given.membrane, reason
+    reason = "is the variable; leave it out here"
+    yield given.variable in file.values, f"values.{given.variable}", given.variable, reason
 
 
-def _plain(value: object) -> object:
-    if isinstance(value, tuple):
-        return [float(one) for one in value]
-    return float(value) if isinstance(value, Decimal) else value
+def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
+    """The protocol with its stimuli. Raises ConfigurationError with those that no scene can give."""
+    given, problems = file.stimulus, []
+    wanted, levels = given.membrane, [float(level) for level in given.levels]
+    membrane = 0 if wanted is None else [placed.name for placed in scene.membranes].index(wanted)
+    if scene.display.force_scale == "automatic":
+        reason = 'must not be "automatic", else each level has another scale: give a number in the scene file'
+        problems.append(Problem("scene: display.force_scale", scene.display.force_scale, reason))
+    fixed, reason = built(partial(scene.with_values, {path: float(v) for path, v in file.values.items()}))
+    if fixed is None:
+        raise ConfigurationError([*problems, Problem("values", MISSING, reason)], str(path))
+    for end in map(float, given.between or ()):
+        if reason := built(partial(fixed.with_values, {str(given.solve): end}))[1]:
+            problems.append(Problem("stimulus.between", end, reason))
+    if problems:
+        raise ConfigurationError(problems, str(path))
 
-
-class _Shown:
-    """The stimuli of a protocol, and the problems of those that no scene can give."""
-
-    def __init__(self, file: ProtocolFile, scene: Scene) -> None:
-        self.problems: list[Problem] = []
-        self._file = file
-        names = [placed.name for placed in scene.membranes]
-        wanted = file.stimulus.membrane
-        self._membrane = 0 if wanted is None else names.index(wanted)
-        if scene.display.force_scale == "automatic":
-            reason = 'must not be "automatic", else each level has another scale: give a number in the scene file'
-            self.problems.append(Problem("scene: display.force_scale", scene.display.force_scale, reason))
-        fixed, reason = built(partial(scene.with_values, {path: float(v) for path, v in file.values.items()}))
-        if fixed is None:
-            self.problems.append(Problem("values", MISSING, reason))
-        self._scene, solve = fixed, str(file.stimulus.solve)
-        for end in map(float, file.stimulus.between or ()):
-            if fixed is not None and (reason := built(partial(fixed.with_values, {solve: end}))[1]):
-                self.problems.append(Problem("stimulus.between", end, reason))
-                self._scene = None
-        self._made: dict[tuple[float, str | None], Stimulus | None] = {}
-        self._unit = next((one.unit for one in scene.fields() if one.path == file.stimulus.variable), "N")
-
-    def protocol(self, path: Path) -> Protocol | None:
-        """None with problems."""
-        given, trials = self._file.stimulus, self._file.trials
-        levels = [float(level) for level in given.levels]
-        stimuli = [self._of(f"stimulus.levels[{i}]", level, given.solver) for i, level in enumerate(levels)]
-        references: list[Stimulus | None] = []
-        if given.reference is not None:
-            references = [self._of("stimulus.reference", float(given.reference), given.solver)] * len(levels)
-        elif given.reference_solver is not None:
-            references = [
-                self._of(f"stimulus.levels[{i}]", level, given.reference_solver) for i, level in enumerate(levels)
-            ]
-        catch = None
-        if trials.catch_level is not None:
-            catch = self._of("trials.catch_level", float(trials.catch_level), given.solver)
-        if self.problems:
-            return None
-        shown, others = (tuple(one for one in each if one is not None) for each in (stimuli, references))
-        protocol = Protocol(path, self._file, shown, others, catch, self._membrane, self._unit)
-        if not any(protocol.difference(i) > 0 for i in range(len(shown))):
-            reason = f"no level changes the {given.judged} that is judged; choose another variable or judged"
-            self.problems.append(Problem("stimulus.levels", levels, reason))
-        if catch is not None and self._file.task == "yes_no":
-            least, found = (min(getattr(one.felt, given.judged) for one in some) for some in (shown, [catch]))
-            if found > least:
-                reason = f"must lack what is asked for: its {given.judged} is {found:.3g}, that of a level {least:.3g}"
-                self.problems.append(Problem("trials.catch_level", catch.level, reason))
-        return protocol
-
-    def _of(self, key: str, level: float, solver: str | None) -> Stimulus | None:
-        if (level, solver) not in self._made:
-            self._made[level, solver] = self._new(key, level, solver)
-        return self._made[level, solver]
-
-    def _new(self, key: str, level: float, solver: str | None) -> Stimulus | None:
-        if self._scene is None:
-            return None
-        base, given = self._scene, self._file.stimulus
-        if solver is not None:
-            base = base.replace(servo=base.servo.replace(solver=solver))
+    @cache
+    def stimulus(key: str, level: float, solver: str | None) -> Stimulus | None:
+        base = fixed if solver is None else fixed.replace(servo=fixed.servo.replace(solver=solver))
+        make = partial(base.with_values, {given.variable: level})
         if given.variable in QUANTITIES:
             low, high = (float(end) for end in given.between or ())
-            make = partial(solved, base, given.variable, level, str(given.solve), (low, high), self._membrane)
-        else:
-            make = partial(base.with_values, {given.variable: level})
-        scene, reason = built(make)
-        if scene is None:
-            self.problems.append(Problem(key, level, reason))
+            make = partial(solved, base, given.variable, level, str(given.solve), (low, high), membrane)
+        found, reason = built(make)
+        if found is None:
+            problems.append(Problem(key, level, reason))
             return None
-        return Stimulus(level, scene, simulated(scene, self._membrane))
+        return Stimulus(level, found, simulated(found, membrane))
+
+    def each(solver: str | None) -> list[Stimulus | None]:
+        return [stimulus(f"stimulus.levels[{i}]", level, solver) for i, level in enumerate(levels)]
+
+    stimuli, references, catch = each(given.solver), [], None
+    if given.reference is not None:
+        references = [stimulus("stimulus.reference", float(given.reference), given.solver)] * len(levels)
+    elif given.reference_solver is not None:
+        references = each(given.reference_solver)
+    if file.trials.catch_level is not None:
+        catch = stimulus("trials.catch_level", float(file.trials.catch_level), given.solver)
+    unit = next((one.unit for one in scene.fields() if one.path == given.variable), "N")
+    if not problems:
+        shown, others = (tuple(one for one in each if one is not None) for each in (stimuli, references))
+        protocol = Protocol(path, file, shown, others, catch, membrane, unit)
+        if not any(protocol.difference(i) > 0 for i in range(len(shown))):
+            reason = f"no level changes the {given.judged} that is judged; choose another variable or judged"
+            problems.append(Problem("stimulus.levels", levels, reason))
+        if catch is not None and file.task == "yes_no":
+            least, most = (min(getattr(one.felt, given.judged) for one in some) for some in (shown, [catch]))
+            if most > least:
+                reason = f"must lack what is asked for: its {given.judged} is {most:.3g}, that of a level {least:.3g}"
+                problems.append(Problem("trials.catch_level", catch.level, reason))
+        if not problems:
+            return protocol
+    raise ConfigurationError(problems, str(path))
