@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from pathlib import Path
 
 COMPARES = """
@@ -30,7 +32,6 @@ ADJUST = (
     .replace('"two_intervals"', '"adjustment"')
     .replace("per_level = 20", "total = 12")
 )
-WIDE = RIGHT.replace("0.42, 0.43, 0.45, 0.47, 0.5, 0.54, 0.6, 0.7]", "0.415, 0.42, 0.43, 0.45, 0.49, 0.57, 0.73, 1.05]")
 YES = """
 title = "Was there a pop?"
 question = "Did it pop?"
@@ -68,6 +69,11 @@ YES_N = (
     .replace("reference = 0.3\n", "")
     .replace("per_level = 20", "per_level = 20\ncatch = 40\ncatch_level = 0.19")
 )
+
+
+def with_levels(text: str, levels: Iterable[float]) -> str:
+    """The protocol with other levels."""
+    return re.sub(r"levels = \[.*\]", f"levels = {[round(float(one), 6) for one in levels]}", text)
 
 
 def written(folder: Path, text: str) -> Path:

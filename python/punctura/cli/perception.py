@@ -146,10 +146,10 @@ def _print(found: Analysis) -> None:
 
     lines: list[tuple[str, Person | Analysis]] = [(f"{p.participant}: {p.trials} trials", p) for p in found.people]
     for name, one in [*lines, ("mean of people", found)]:
-        text = f"threshold {words(one.threshold)} {found.unit}, JND {words(one.jnd)}"
-        if one.slope is not None:
-            text = f"slope {words(one.slope)}"
-        typer.echo(f"{name}, {one.reason or text}")
+        numbers = {"threshold": one.threshold, "JND": one.jnd, "slope": one.slope}
+        text = ", ".join(f"{what} {words(value)}" for what, value in numbers.items() if value is not None)
+        unit = found.unit.removesuffix("-") if one.slope is None else ""
+        typer.echo(f"{name}, {one.reason or f'{text} {unit}'.rstrip()}")
 
 
 @command.command()

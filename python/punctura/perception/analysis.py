@@ -23,7 +23,7 @@ MISFIT = 0.001  # probability of answers that fit the function as badly
 REVERSED = 4.0  # standard deviations by which the answers go against the level
 QUARTER = float(ndtri(0.75))
 LEAST_CELL = 5  # answers for a rate of d'
-RATE = 0.3  # a rate of k in n is (k + RATE)/(n + 2 RATE): then d' has the least bias (docs/decisions/perception.md)
+RATE, END = 0.45, 0.2  # added to k of n for a rate, taken from none: then d' has the least bias (docs/decisions)
 _POINTS = 200  # of each rate, for the interval of d'
 
 
@@ -196,7 +196,7 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
         result.reason = "the answers hardly depend on the level, so they do not determine a threshold"
     if result.reason:
         return
-    result.threshold = _estimate(belief, shape.level(grid.place))
+    result.threshold = Estimate(*map(float, shape.level(belief.quantiles(grid.place, (0.5, *SHARES)))))
     result.lapse = _estimate(belief, grid.lapse)
     if shape.rest == "bias":
         result.first = _estimate(belief, ndtr(grid.bias))
@@ -290,19 +290,22 @@ def _estimate(belief: Belief, values: Array) -> Estimate:
 def _detection(protocol: Protocol, found: Answers) -> list[Detection]:
     """d' and criterion of each level, from two rates: of yes, and of false alarms in the catch trials; or of the
     comparison in each of two intervals, so that a bias towards one of them is none of d'. Three intervals have none.
+    Methods that follow the answers have none: which answers a level has would depend on them.
     """
     yes_no = protocol.file.task == "yes_no"
+    planned = protocol.file.method == "constant" and (yes_no or protocol.file.task == "two_intervals")
     list_of = []
-    for level in np.unique(found.level) if yes_no or protocol.file.task == "two_intervals" else ():
+    for level in np.unique(found.level) if planned else ():
         here = found.level == level
         cells = [found.counted[here & (found.side == side)] for side in (1, -1)]
         if yes_no:  # the false alarms are counted as the answers "no" of a second interval
             cells[1] = 1 - found.catch
         if min(map(len, cells)) < LEAST_CELL:
             continue
-        one, other = (_z(float(cell.sum()), len(cell)) for cell in cells)
-        first, second = (float(ndtri((cell.sum() + RATE) / (len(cell) + 2 * RATE))) for cell in cells)
-        never, always = ([bool(cell.mean() == end) for cell in cells] for end in (0, 1))
+        hits, n = np.array([(cell.sum(), len(cell)) for cell in cells], np.float64).T
+        never, always = hits == 0, hits == n
+        one, other = map(_z, hits, n)
+        first, second = map(float, ndtri((hits + RATE + END * (always * 1.0 - never)) / (n + 2 * RATE)))
         per = 1 if yes_no else np.sqrt(2)
         dprime = _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always))
         criterion = _spread(
@@ -318,7 +321,7 @@ def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimat
     return Estimate(value, -np.inf if no_low else low, np.inf if no_high else high)
 
 
-def _z(hits: float, trials: int) -> Array:
+def _z(hits: float, trials: float) -> Array:
     """Equally probable values of a rate as normal deviates: the posterior with Jeffreys' prior."""
     shares = (np.arange(_POINTS) + 0.5) / _POINTS
     rate: Array = ndtri(betaincinv(hits + 0.5, trials - hits + 0.5, shares))

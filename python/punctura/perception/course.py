@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 import numpy as np
 
 from punctura.perception.methods import method_of
 from punctura.perception.protocol import Protocol, Stimulus
+from punctura.perception.stimulus import Felt
+from punctura.results import JsonObject
 
 Kind = Literal["practice", "trial", "catch"]
 PAIRS = 2
@@ -86,6 +89,12 @@ class Course:
         group, place = divmod(self._shown[kind, level], size)
         seeds = [self.protocol.file.seed, self._group, len(kind), level + 1, group]
         return int(np.random.default_rng(seeds).permutation(size)[place])
+
+
+def line_of(trial: Trial, answer: str, felt: Sequence[Felt]) -> JsonObject:
+    """A trial and its answer as they are on disk."""
+    return {"trial": trial.number, "block": trial.block, "kind": trial.kind, "level": trial.shown.level,
+            "position": trial.position, "answer": answer, "felt": [asdict(one) for one in felt]}  # fmt: skip
 
 
 def counted(protocol: Protocol, position: int, answer: str) -> int:

@@ -74,7 +74,8 @@ def _answers(file: ProtocolFile) -> Iterator[Problem]:
     used: dict[str, str] = {}
     for name, key in file.answers.items():
         if name not in wanted:
-            yield Problem(f"answers.{name}", key, f"is no answer of {file.task}, which has {', '.join(wanted)}")
+            what = ", ".join(wanted) or "a number is typed"
+            yield Problem(f"answers.{name}", key, f"is no answer of {file.task}: {what}")
         elif len(key) != 1 or not key.isprintable() or key.isspace():
             yield Problem(f"answers.{name}", key, "must be one key, as a letter or a digit")
         elif key.casefold() in used:

@@ -87,7 +87,8 @@ class Quest:
 
     def __init__(self, protocol: Protocol) -> None:
         shape = protocol.shape
-        grid = Grid(replace(shape, rest="") if shape.rest == "bias" else shape, protocol.levels, QUEST)
+        shape = replace(shape, bends=False, rest="" if shape.rest == "bias" else shape.rest)
+        grid = Grid(shape, protocol.levels, QUEST)
         self._p: Array = grid.probability(protocol.levels)
         self._weight: Array = grid.prior
         self._wanted = QUEST.place if protocol.shape.one_sided else QUEST.place * QUEST.width

@@ -6,19 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from punctura.perception.course import Course, Trial
+from punctura.perception.course import Course, Trial, line_of
 from punctura.perception.protocol import Protocol, Stimulus
-from punctura.perception.psychometric import Array
+from punctura.perception.psychometric import Array, strongest
 from punctura.perception.session import Session
 from punctura.perception.stimulus import Felt, simulated
 
 REALISATIONS = 8  # of the hand's randomness, for each stimulus
-CURVE = 81  # levels
 
 
 @dataclass(frozen=True)
@@ -40,19 +38,13 @@ class Observer:
 
     def __post_init__(self) -> None:
         """Raises ValueError."""
-        for key in ("weber", "noise", "masking"):
-            if not 0 <= getattr(self, key) < np.inf:
-                raise ValueError(f"{key} must be 0 or more, not {getattr(self, key):g}")
-        if not 0 <= self.lapse <= 1:
-            raise ValueError(f"lapse must be from 0 to 1, not {self.lapse:g}")
+        for key, most in (("weber", 1e6), ("noise", 1e6), ("masking", 1e6), ("lapse", 1.0)):
+            if not 0 <= getattr(self, key) <= most:
+                raise ValueError(f"{key} must be from 0 to {most:g}, not {getattr(self, key):g}")
         if not self.weber + self.noise + self.masking > 0:
             raise ValueError("give at least one of weber, noise and masking: without noise there is no threshold")
         if not np.isfinite([self.bias, self.criterion or 0.0]).all():
             raise ValueError("bias and criterion must be finite numbers")
-
-    def spread(self, one: Felt, judged: str) -> float:
-        """The standard deviation of what is felt of an interval."""
-        return float(np.hypot(np.hypot(self.noise, self.weber * getattr(one, judged)), self.masking * one.peak))
 
 
 class Senses:
@@ -60,23 +52,13 @@ class Senses:
 
     def __init__(self, protocol: Protocol) -> None:
         self.protocol = protocol
-        self._felt: dict[int, list[Felt]] = {}
+        self.known: dict[int, list[Felt]] = {}  # by the id of the stimulus
 
-    def felt(self, stimulus: Stimulus, random: np.random.Generator) -> Felt:
-        """One realisation."""
-        return self.all(stimulus)[int(random.integers(REALISATIONS))]
-
-    def put(self, stimulus: Stimulus, several: list[Felt]) -> None:
-        """What is felt of a stimulus by another hand."""
-        self._felt[id(stimulus)] = several
-
-    def all(self, stimulus: Stimulus) -> list[Felt]:
-        """All realisations."""
-        key = id(stimulus)
-        if key not in self._felt:
-            membrane = self.protocol.membrane
-            self._felt[key] = [simulated(stimulus.scene, membrane, seed) for seed in range(REALISATIONS)]
-        return self._felt[key]
+    def __call__(self, stimulus: Stimulus) -> list[Felt]:
+        key, membrane = id(stimulus), self.protocol.membrane
+        if key not in self.known:
+            self.known[key] = [simulated(stimulus.scene, membrane, seed) for seed in range(REALISATIONS)]
+        return self.known[key]
 
 
 class Simulation:
@@ -93,11 +75,12 @@ class Simulation:
     def answer(self, trial: Trial, seed: int) -> tuple[str, list[Felt]]:
         """The answer, and what was felt in each interval. The same seed and trial give the same answer."""
         random = np.random.default_rng([seed, trial.number])
-        felt = [self.senses.felt(one, random) for one in trial.intervals]
+        felt = [self.senses(one)[int(random.integers(REALISATIONS))] for one in trial.intervals]
         names = list(self.protocol.answers)
         if random.random() < self.observer.lapse and names:
             return names[int(random.integers(len(names)))], felt
-        inner = [self._inner(one, random) for one in felt]
+        judged, spread = self._judged_of(felt)
+        inner = judged + spread * random.standard_normal(len(felt))
         inner[0] += self.observer.bias * (len(inner) > 1)
         if self.protocol.file.task == "magnitude":
             return f"{max(inner[0] / self.criterion, 0.01):.3g}", felt
@@ -106,16 +89,18 @@ class Simulation:
         if self.protocol.file.task == "yes_no":
             return names[0 if inner[0] > self.criterion else 1], felt
         if self.protocol.adjusts:
-            gap, near = inner[1] - inner[0], self.observer.spread(felt[0], self._judged) / 2
+            gap, near = inner[1] - inner[0], spread[0] / 2
             ends = (trial.level == 0) == self.protocol.rises, trial.level in (0, len(self.protocol.levels) - 1)
             beyond = ends[1] and (gap > 0) == ends[0]  # there is no weaker or no stronger level
             return names[2 if abs(gap) < near or beyond else 0 if gap > 0 else 1], felt
         sign = self._sign(trial.shown, trial.intervals[trial.position - 1])  # an interval of the reference
-        return names[int(np.argmax(sign * np.array(inner)))], felt
+        return names[int(np.argmax(sign * inner))], felt
 
-    def _inner(self, one: Felt, random: np.random.Generator) -> float:
-        value = float(getattr(one, self._judged))
-        return value + self.observer.spread(one, self._judged) * float(random.standard_normal())
+    def _judged_of(self, several: Sequence[Felt]) -> tuple[Array, Array]:
+        """What is judged of each, and the standard deviation of what is felt of it."""
+        judged, peak = (np.array([float(getattr(one, key)) for one in several]) for key in (self._judged, "peak"))
+        given = self.observer
+        return judged, np.hypot(np.hypot(given.noise, given.weber * judged), given.masking * peak)
 
     def _sign(self, shown: Stimulus, other: Stimulus) -> int:
         """1 if the question seeks the strongest interval; -1 for the weakest: the levels only weaken the reference."""
@@ -136,10 +121,7 @@ class Simulation:
         lines: list[dict[str, object]] = []
         while (trial := course.next()) is not None:
             answer, felt = self.answer(trial, seed)
-            lines.append(
-                {"kind": trial.kind, "block": trial.block, "level": trial.shown.level, "position": trial.position,
-                 "answer": answer, "felt": [vars(one) for one in felt]}
-            )  # fmt: skip
+            lines.append(line_of(trial, answer, felt))
             course.add(trial, answer)
         return lines
 
@@ -150,35 +132,35 @@ class Simulation:
                 session.add(trial, *self.answer(trial, seed))
             return len(session.course)
 
-    def chance(self, shown: Stimulus, other: Stimulus | None, side: int = 0, lapses: bool = False) -> float:
-        """Of the counted answer, mean of the hand's realisations. side: 1, `shown` comes first; -1, it comes second; 0
-        is for an observer without bias."""
-        p = self._chance(shown, other, self.senses.all(shown), self.senses.all(other) if other else (), side)
-        lapse = self.observer.lapse * lapses
-        return (1 - lapse) * p + lapse / max(self.protocol.intervals, 2)
-
-    def _chance(
-        self, shown: Stimulus, other: Stimulus | None, mine: Sequence[Felt], theirs: Sequence[Felt], side: int = 0
+    def chance(
+        self, shown: Stimulus, other: Stimulus | None, side: int = 0, lapses: bool = False, mean: bool = False
     ) -> float:
-        a, sa = self._told(mine)
+        """Of the counted answer, mean of the hand's realisations. side: 1, `shown` comes first; -1, it comes second; 0
+        is for an observer without bias. mean: if a hand felt the mean of its realisations each time."""
+        felt = (lambda one: [self._mean(one)]) if mean else self.senses
+        a, sa = self._judged_of(felt(shown))
         if other is None:
-            return float(ndtr((a - self.criterion) / sa).mean())
-        b, sb = self._told(theirs)
-        gap = self._sign(shown, other) * (a[:, None] - b + side * self.observer.bias)
-        return _chosen(gap, np.broadcast_to(sa[:, None], gap.shape), sb, self.protocol.intervals)
-
-    def _told(self, several: Sequence[Felt]) -> tuple[Array, Array]:
-        judged = [float(getattr(one, self._judged)) for one in several]
-        return np.array(judged), np.array([self.observer.spread(one, self._judged) for one in several])
+            p = ndtr((a - self.criterion) / sa)
+        else:
+            b, sb = self._judged_of(felt(other))
+            gap = self._sign(shown, other) * (a[:, None] - b + side * self.observer.bias)
+            own, others = (np.broadcast_to(one, gap.shape) for one in (sa[:, None], sb))
+            p = strongest(gap, own, others, self.protocol.intervals)
+        lapse = self.observer.lapse * lapses
+        return float((1 - lapse) * p.mean() + lapse / max(self.protocol.intervals, 2))
 
     def dprime(self, i: int) -> float:
-        """What endless answers at level i would give, lapses included."""
-        protocol = self.protocol
+        """What endless answers at level i would give, lapses included; NaN if a session like this one leaves less than
+        half an answer of a kind to expect, so that no rule can know it."""
+        protocol, count = self.protocol, self.protocol.file.trials.per_level or 0
         shown = protocol.stimuli[i]
         if protocol.catch is not None and protocol.file.task == "yes_no":
-            return float(ndtri(self.chance(shown, None, 0, True)) - ndtri(self.chance(protocol.catch, None, 0, True)))
-        z = ndtri([self.chance(shown, protocol.references[i], side, True) for side in (1, -1)])
-        return float(z.sum() / np.sqrt(2))
+            rates = [self.chance(shown, None, 0, True), 1 - self.chance(protocol.catch, None, 0, True)]
+        else:
+            rates = [self.chance(shown, protocol.references[i], side, True) for side in (1, -1)]
+            count //= 2
+        known = count * min(min(rate, 1 - rate) for rate in rates) >= 0.5
+        return float(ndtri(rates).sum() / np.sqrt(protocol.intervals)) if known else np.nan
 
     def curve(self) -> tuple[Array, Array]:
         """Levels, and the probability of the counted answer at each, without lapses and bias.
@@ -186,30 +168,18 @@ class Simulation:
         With a felt quantity the level is the felt one: a hand feels the planned level differently each time.
         """
         protocol = self.protocol
-        several = list(zip(protocol.stimuli, protocol.references or [None] * len(protocol.stimuli), strict=True))
+        pairs = list(zip(protocol.stimuli, protocol.references or [None] * len(protocol.stimuli), strict=True))
         if not protocol.in_newtons:
-            return np.array(protocol.levels), np.array([self.chance(*pair) for pair in several])
-        keys = {self._judged, "peak", protocol.quantity}
-        means = {
-            key: [float(np.mean([getattr(one, key) for one in self.senses.all(shown)])) for shown in protocol.stimuli]
-            for key in keys
-        }
+            return np.array(protocol.levels), np.array([self.chance(*pair) for pair in pairs])
+        x = []
+        for shown, other in pairs:
+            less = getattr(self._mean(other), protocol.quantity) - (protocol.reference or 0.0) if other else 0.0
+            x.append(getattr(self._mean(shown), protocol.quantity) - less)
+        return np.array(x), np.array([self.chance(*pair, mean=True) for pair in pairs])
 
-        def at(value: float) -> Felt:
-            found: dict[str, Any] = {key: float(np.interp(value, means[protocol.quantity], means[key])) for key in keys}
-            return Felt(**{**vars(protocol.stimuli[0].felt), **found, protocol.quantity: value})
-
-        x, p = np.linspace(protocol.levels[0], protocol.levels[-1], CURVE), []
-        shown, other = several[-1] if protocol.rises else several[0]
-        for value in x:
-            if other is None:
-                p.append(self._chance(shown, None, [at(value)], ()))
-                continue
-            steps = [
-                (one, getattr(one, protocol.quantity) + value - protocol.reference) for one in self.senses.all(other)
-            ]
-            p.append(float(np.mean([self._chance(shown, other, [at(level)], [one]) for one, level in steps])))
-        return x, np.array(p)
+    def _mean(self, stimulus: Stimulus) -> Felt:
+        several = [vars(one) for one in self.senses(stimulus)]
+        return Felt(**{key: type(value)(np.mean([one[key] for one in several])) for key, value in several[0].items()})
 
     def threshold(self, share: float | None = None) -> float:
         """The level at which the counted answer has the probability `share`, without lapses; the true threshold.
@@ -232,13 +202,3 @@ class Simulation:
         if self.protocol.shape.one_sided:
             return self.threshold()
         return abs(self.threshold(0.75) - self.threshold(0.25)) / 2
-
-
-def _chosen(gap: Array, own: Array, other: Array, intervals: int) -> float:
-    """The probability that the comparison is felt strongest of all intervals: the mean of all pairs."""
-    if intervals == 2:
-        return float(ndtr(gap / np.hypot(own, other)).mean())
-    z = np.linspace(-8, 8, 801)[:, None, None]
-    density = np.exp(-z * z / 2) / np.sqrt(2 * np.pi)
-    beats = ndtr((gap + own * z) / other) ** (intervals - 1)
-    return float(np.sum(density * beats) * (z[1, 0, 0] - z[0, 0, 0]) / gap.size)

@@ -42,10 +42,12 @@ def coverage(
 ) -> dict[str, Coverage]:  # fmt: skip
     """By threshold, jnd and dprime, where the task has one. Raises ValueError if one is outside the levels."""
     simulation = Simulation(protocol, observer, senses)
-    truth: dict[str, list[float]] = {"threshold": [simulation.threshold()]}
-    if protocol.reference is not None:
+    set_equal = protocol.reference if protocol.adjusts else None  # what a setting seeks
+    truth: dict[str, list[float]] = {"threshold": [simulation.threshold() if set_equal is None else set_equal]}
+    if protocol.reference is not None and not protocol.adjusts:
         truth["jnd"] = [simulation.jnd()]
-    if protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch):
+    planned = protocol.file.method == "constant"
+    if planned and (protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch)):
         truth["dprime"] = [simulation.dprime(i) for i in range(len(protocol.levels))]
     rows: dict[str, list[tuple[float, ...]]] = {what: [] for what in truth}
     for i in range(sessions):
@@ -53,10 +55,11 @@ def coverage(
         dprimes = {each.level: each.dprime for each in one.detection}
         found = {"threshold": [one.threshold], "jnd": [one.jnd], "dprime": [*map(dprimes.get, protocol.levels)]}
         for what, known in truth.items():
-            rows[what] += [(true, *each) for true, each in zip(known, found[what], strict=True) if each is not None]
+            pairs = zip(known, found[what], strict=True)
+            rows[what] += [(true, *each) for true, each in pairs if each is not None and np.isfinite(true)]
         report((i + 1) / sessions)
     return {
-        what: _coverage(what, np.array(row).reshape(-1, 4), sessions * len(truth[what]), one.trials)
+        what: _coverage(what, np.array(row).reshape(-1, 4), sessions * int(np.isfinite(truth[what]).sum()), one.trials)
         for what, row in rows.items()
     }
 
@@ -64,10 +67,11 @@ def coverage(
 def _coverage(what: str, rows: Array, asked: int, trials: int) -> Coverage:
     true, value, low, high = rows.T
     known = np.isfinite(value)
-    bias = (value[known] - true[known]).sum() / np.abs(true[known]).sum() if known.any() else np.nan
+    bias = (np.sign(true) * (value - true))[known].sum() / np.abs(true[known]).sum() if known.any() else np.nan
     covered = float(np.mean((low <= true) & (true <= high))) if len(rows) else np.nan
-    width = float((high[known] - low[known]).mean()) if known.any() else np.nan
-    return Coverage(what, 1 - len(rows) / asked, covered, float(bias), width, trials)
+    wide = (high - low)[known & np.isfinite(high - low)]
+    width = float(wide.mean()) if len(wide) else np.nan
+    return Coverage(what, 1 - len(rows) / max(asked, 1), covered, float(bias), width, trials)
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,6 @@ class StimulusTable(Table):
     between: Numbers | None = None  # ... between these two
     membrane: Text | None = None  # whose pop is judged; default: the first
     judged: Literal["drop", "contrast", "peak", "roughness"] = "drop"  # what a simulated observer judges
-    scale: Literal["linear", "log"] = "linear"  # of the levels, in the fit
     solver: Text | None = None  # of the scene's [servo], in the intervals with the level ...
     reference_solver: Text | None = None  # ... and in the others
 
@@ -177,13 +176,13 @@ class Protocol:
     def shape(self) -> Shape:
         """Of the psychometric function."""
         if self.file.task == "yes_no" or self.compares:
-            log = self.file.stimulus.scale == "log"
-            return Shape(0.5, rises=self.rises, log=log, rest="bias" if self.compares else "floor")
+            bends = not self.compares and min(self.levels) > 0
+            return Shape(rises=self.rises, bends=bends, rest="bias" if self.compares else "floor")
         grows = self.difference(len(self.stimuli) - 1) >= self.difference(0) or self.reference is not None
         none = self.reference or 0.0  # the level at which nothing differs; 0 if the intervals differ in the solver
         below = self.levels[0] < none
         rest: Literal["", "bias"] = "bias" if self.intervals == 2 else ""
-        return Shape(1 / self.intervals, one_sided=True, rises=grows, reference=none, below=below, rest=rest)
+        return Shape(self.intervals, one_sided=True, rises=grows, reference=none, below=below, rest=rest)
 
     @property
     def easiest(self) -> int:

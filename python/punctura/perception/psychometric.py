@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -23,20 +24,25 @@ class Shape:
     """How the probability of the counted answer goes with the level.
 
     Without `one_sided` it is that of "yes" or of "the comparison": it crosses 1/2 at the threshold, a normal function.
-    With it, it is that of a right answer: a Weibull function of the distance from the reference, half-way between guess
-    and 1 at the threshold.
+    With it, it is that of a right answer, half-way between guess and 1 at the threshold: d' is a power of the distance
+    from the reference, and the strongest of all intervals is chosen.
 
     `rest` is what else the answers depend on. floor: of yes or no, a probability of false alarms. bias: of two
     intervals, towards the first one, in standard deviations of what decides; else a bias would look like noise.
     """
 
-    guess: float  # probability of the counted answer of a person who only guesses
+    intervals: int = 1
     one_sided: bool = False
     rises: bool = True  # with the level
     reference: float = 0.0  # level at which nothing differs
     below: bool = False  # one-sided: the levels are below the reference
-    log: bool = False  # a normal function of the level's logarithm
+    bends: bool = False  # the function is a normal one of the level, of its logarithm or of its reciprocal
     rest: Literal["", "floor", "bias"] = ""
+
+    @property
+    def guess(self) -> float:
+        """The probability of the counted answer of a person who only guesses."""
+        return 1 / max(self.intervals, 2)
 
     def axis(self, levels: npt.ArrayLike) -> Array:
         """The variable in which the function has a place and a width, of each level."""
@@ -44,12 +50,12 @@ class Shape:
         if self.one_sided:  # a difference that was felt the other way round is none
             x = self.reference - x if self.below else x - self.reference
         with np.errstate(divide="ignore"):
-            return np.log(np.maximum(x, 0.0)) if self.one_sided or self.log else x
+            return np.log(np.maximum(x, 0.0)) if self.one_sided else x
 
     def level(self, u: npt.ArrayLike) -> Array:
         """The distance from the reference (one-sided) or the level of a value of `axis`."""
         x = np.asarray(u, np.float64)
-        return np.exp(x) if self.one_sided or self.log else x.copy()
+        return np.exp(x) if self.one_sided else x.copy()
 
 
 class Sizes(NamedTuple):
@@ -61,10 +67,32 @@ class Sizes(NamedTuple):
     lapse: int
 
 
-FIT = (Sizes(31, 15, 7, 5), *[Sizes(25, 13, 7, 6)] * 3)  # each finer where the last one has its weight
-QUEST = Sizes(31, 10, 3, 3)
+FIT = (Sizes(25, 13, 5, 6), Sizes(21, 11, 5, 7), Sizes(21, 11, 5, 10))  # each finer where the last one has its weight
+QUEST = Sizes(61, 9, 3, 3)
 MOST_LAPSE, MOST_FLOOR, MOST_BIAS = 0.25, 0.45, 2.0
 BIAS = 0.7  # standard deviation of its prior
+EXPONENT, EXPONENTS = 1.3, 0.5  # of d': the middle of its prior, and the standard deviation of its logarithm
+BENDS = (1, 0, -1)  # power of the level of which the function is a normal one; 0: its logarithm
+_Z = np.linspace(-8, 8, 801)
+_DPRIMES = np.linspace(0, 12, 1201)
+
+
+def strongest(gap: Array, own: npt.ArrayLike, other: npt.ArrayLike, intervals: int) -> Array:
+    """The probability that the comparison is felt as the strongest of all intervals.
+
+    gap: how much stronger it is. own, other: standard deviations of what is felt of it, and of each other interval.
+    """
+    if intervals == 2:
+        return np.asarray(ndtr(gap / np.hypot(own, other)))
+    beats = ndtr((gap[..., None] + np.multiply.outer(own, _Z)) / np.expand_dims(other, -1)) ** (intervals - 1)
+    return np.asarray(beats @ np.exp(-_Z * _Z / 2) * (_Z[1] - _Z[0]) / np.sqrt(2 * np.pi))
+
+
+@cache
+def _right(intervals: int) -> tuple[Array, float]:
+    """The probability of a right answer at each of _DPRIMES, and the d' at the threshold."""
+    p = strongest(_DPRIMES, np.ones_like(_DPRIMES), 1.0, intervals)
+    return p, float(np.interp((1 + 1 / intervals) / 2, p, _DPRIMES))
 
 
 class Grid:
@@ -79,26 +107,30 @@ class Grid:
         self.low, self.high = low, high
         spread = self.spread = high - low
         widest: Sequence[Array | tuple[float, float]] = (
-            (low - spread / 2, high + spread / 2),
-            np.log(spread * np.array([0.02, 2.0])),
+            (max(low - spread / 2, low / 4) if shape.bends else low - spread / 2, high + spread / 2),
+            np.log([1 / 12, 3.0] if shape.one_sided else spread * np.array([0.02, 2.0])),
             (0.0, MOST_FLOOR) if shape.rest == "floor" else (-MOST_BIAS, MOST_BIAS),
             (0.0, np.sqrt(MOST_LAPSE)),
         )
         axes = [np.linspace(ends[0], ends[1], count) for ends, count in zip(near or widest, sizes, strict=True)]
         if not shape.rest:
             axes[2] = np.zeros(1)
-        self.parts = [part.ravel() for part in np.meshgrid(*axes, indexing="ij")]  # as near
-        self.place, width, rest, root = self.parts
-        self._lapses = len(axes[3])
+        axes.insert(3, np.array(BENDS if shape.bends else BENDS[:1], np.float64))
+        *parts, self.bend, root = [part.ravel() for part in np.meshgrid(*axes, indexing="ij")]
+        self.parts = [*parts, root]  # as near
+        self.place, width, rest = parts
+        self._lapses = len(axes[4])
         self.width, self.lapse = np.exp(width), root**2
         self.narrowest, self.widest = (float(end) for end in np.exp(widest[1]))
         self.bias = rest if shape.rest == "bias" else np.zeros(1)
         self.floor = rest if shape.rest == "floor" else np.zeros(1)
         outside = np.maximum(np.maximum(low - self.place, self.place - high), 0) / (spread / 2)
-        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** 19
+        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** 49
         prior = prior * (1 - self.floor) * np.exp(-((self.bias / BIAS) ** 2) / 2)
-        # Of right answers the width is flat in its logarithm, and the distance between that and flat.
-        prior = prior * (np.sqrt(shape.level(self.place)) if shape.one_sided else self.width)
+        if shape.one_sided:  # the width is one over the exponent of d'
+            prior = prior * np.exp(-(((width + np.log(EXPONENT)) / EXPONENTS) ** 2) / 2)
+        else:
+            prior = prior * self.width
         self.prior: Array = prior / prior.sum()
         # Where the function of place and width has the probability 1/2, less its place, in widths: with a floor the
         # place is that of half the answers, else the floor would move it.
@@ -111,11 +143,18 @@ class Grid:
         """
         n = self._lapses  # next to each other are cells that differ in the lapses alone
         u = self.shape.axis(levels)[:, None]
-        z = (u - self.place[::n]) / self.width[::n] * (1 if self.shape.rises else -1)
+        place = self.place[::n]
+        away = u - place
+        if self.shape.bends:  # all with the same place, and the same slope there
+            ratio, bend = np.maximum(u / place, 1e-9), self.bend[::n]
+            away = np.where(bend > 0, away, place * np.where(bend == 0, np.log(ratio), 1 - 1 / ratio))
+        z = away / self.width[::n] * (1 if self.shape.rises else -1)
         bias = np.reshape(sides, (-1, 1)) * self.bias[::n]
         if self.shape.one_sided:
-            core = self.shape.guess + (1 - self.shape.guess) * -np.expm1(-np.log(2) * np.exp(np.minimum(z, 30)))
-            core = ndtr(ndtri(core) + bias) if np.any(bias) else core
+            p, middle = _right(self.shape.intervals)
+            dprime = middle * np.exp(np.minimum(z, 30))
+            two = self.shape.intervals == 2
+            core = ndtr(dprime / np.sqrt(2) + bias) if two else np.interp(dprime, _DPRIMES, p)
         else:
             floor = self.floor[::n]
             core = floor + (1 - floor) * ndtr(z + self._shift[::n] + bias)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -39,10 +40,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_PANELS = 12
-INTERVALS = (
-    f"Intervals are {LEVEL:.0%} intervals if the shape of the function is right; of simulated observers with 2 % "
-    "lapses, for whom it never quite is, {held} held the known number (docs/decisions/perception.md)."
-)
 WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)
 
 
@@ -108,12 +105,13 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         keys |= {"jnd": f"JND{unit}", "weber": "Weber fraction"}
     if not (protocol.rates or protocol.adjusts):
         keys |= {"lapse": "lapses"} | ({"first": "first if equal"} if file.task == "two_intervals" else {})
-    shares = "right" if protocol.compares else _counted(protocol)
+    shares = "right answers" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
-        f"{what}. {INTERVALS.format(held=_held(protocol))} Source of the protocol: {file.source or 'not given'}.", "",
+        f"{what}. Intervals are {LEVEL:.0%} intervals, for people who seldom lapse. Source of the protocol: "
+        f"{file.source or 'not given'}.", "",
         f"| participant | trials | {' | '.join(keys.values())} | {shares} in each block |",
         f"|---|---|{'---|' * len(keys)}---|",
     ]  # fmt: skip
@@ -163,15 +161,20 @@ def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[J
             panel = figure.add_subplot(down, across, number)
             _panel(panel, protocol, one, answers_of(protocol, sessions[one.participant][1:]))
             panel.set_title(one.participant)
+        variable, counted = _label(protocol), _counted(protocol)
+        counted = counted if protocol.rates or protocol.adjusts else f"share of {counted}"
+        across_text, up_text = (counted, variable) if protocol.adjusts else (variable, counted)
+        figure.supxlabel(across_text, size="medium")
+        figure.supylabel(up_text, size="medium")
         data = io.BytesIO()
         figure.savefig(data, format="svg", metadata={"Date": None})
     return data.getvalue()
 
 
 def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> None:
-    variable = protocol.file.stimulus.variable.removesuffix("_N") + f", {protocol.unit}".removesuffix(", -")
-    panel.set_xlabel("setting" if protocol.adjusts else variable)
-    panel.set_ylabel(variable if protocol.adjusts else _counted(protocol))
+    if protocol.unit == "m":
+        axis = panel.yaxis if protocol.adjusts else panel.xaxis
+        axis.set_major_formatter(lambda value, _: f"{1e3 * value:g}")
     if protocol.adjusts:
         panel.plot(np.arange(len(answers.x)) + 1, answers.x, "o", ms=4, color="0.2", mfc="none")
         panel.axhline(answers.x.mean(), color="0.2", lw=1.2)
@@ -193,10 +196,6 @@ def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> No
     panel.fill_between(curve, band[:, 0], band[:, 1], color="0.85", lw=0)
     panel.plot(curve, p @ belief.weight, color="0.2", lw=1.2)
     panel.set_ylim(-0.03, 1.03)
-    if protocol.shape.log:
-        panel.set_xscale("log")
-        panel.set_xticks(protocol.levels[::3], [f"{level:g}" for level in protocol.levels[::3]])
-        panel.minorticks_off()
     if one.threshold is not None:
         ends, half = np.array(one.threshold[1:]), 0.5
         if protocol.shape.one_sided:
@@ -204,15 +203,18 @@ def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> No
         panel.plot(ends, [half, half], color="0.2", lw=2.5, solid_capstyle="butt")
 
 
-def _held(protocol: Protocol) -> str:
-    """How many of the intervals of simulated observers held the known number."""
-    file = protocol.file
-    plain = file.task == "yes_no" and file.stimulus.variable.endswith(".thickness") and not protocol.shape.log
-    return '81 %, for a thickness without scale = "log",' if plain else "91 % to 99 %"
+def _label(protocol: Protocol) -> str:
+    """Of the variable: with the name of its membrane, and lengths in mm."""
+    name = protocol.file.stimulus.variable
+    if protocol.in_newtons:
+        return f"felt {protocol.quantity}, N"
+    if found := re.fullmatch(r"membrane\[(\d+)\]\.(\w+)", name):
+        name = f"{found[2]} of the {protocol.stimuli[0].scene.membranes[int(found[1])].name}"
+    return name + {"m": ", mm", "-": ""}.get(protocol.unit, f", {protocol.unit}")
 
 
 def _counted(protocol: Protocol) -> str:
     """What the function gives: the share of these answers, or the mean of these points."""
     if protocol.rates or protocol.adjusts:
         return "points" if protocol.rates else "setting"
-    return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right"
+    return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right answers"

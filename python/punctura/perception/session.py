@@ -8,14 +8,13 @@ import math
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import asdict
 from datetime import datetime, timezone
 from pathlib import Path
 from types import TracebackType
 
 from punctura import PuncturaError, __version__
 from punctura.files.whole_file import private, private_folder
-from punctura.perception.course import Course, Trial
+from punctura.perception.course import Course, Trial, line_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.stimulus import Felt
 from punctura.record.new_file import lock
@@ -109,18 +108,7 @@ class Session:
 
     def add(self, trial: Trial, answer: str, felt: Sequence[Felt], recordings: Sequence[str] = ()) -> None:
         """Writes the answer to `next` to the disk, and only then goes on. Raises DiskFullError, OSError."""
-        line = {
-            "trial": trial.number,
-            "block": trial.block,
-            "kind": trial.kind,
-            "level": trial.shown.level,
-            "position": trial.position,
-            "answer": answer,
-            "felt": [asdict(one) for one in felt],
-            "recordings": list(recordings),
-            "time": _now(),
-        }
-        self._append(line)
+        self._append({**line_of(trial, answer, felt), "recordings": list(recordings), "time": _now()})
         self.course.add(trial, answer)
 
     def _append(self, line: JsonObject) -> None:

@@ -57,7 +57,6 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (SOLVED, "between = [0.0, 1.5]", "between = [1.5, 0]", "stimulus.between", "the smaller one first"),
         (SOLVED, "between = [0.0, 1.5]", "between = [0, inf]", "stimulus.between", "must be a finite number"),
         (SOLVED, "between = [0.0, 1.5]", "between = [-3, 1.5]", "stimulus.between", "must be 0 or more"),
-        (RIGHT, "[trials]", 'scale = "log"\n[trials]', "stimulus.scale", "both sides of a reference"),
         (YES, "catch_level = 0.012", "catch_level = 0.0003", "trials.catch_level", "lack what is asked for"),
         (COMPARES, "Which one fell more?", " ", "question", "must not be empty"),
         (COMPARES, "[stimulus]", 'picture = "yes"\n[stimulus]', "picture", "must be true or false"),

@@ -45,13 +45,9 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     with (folder / "trials.csv").open() as opened:
         rows = list(csv.DictReader(opened))
     assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
-    report = (folder / "report.md").read_text()
-    assert (
-        "| O01 | 120 |" in report
-        and "JND" not in report
-        and "false alarms" in report
-        and (folder / "functions.svg").exists()
-    )
+    report, picture = ((folder / name).read_text() for name in ("report.md", "functions.svg"))
+    assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report
+    assert "<!-- thickness of the thin membrane, mm -->" in picture
     status, out, _ = call(capsys, "delete", file, "O01")
     assert status == 0 and out.count("deleted") == 7
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
@@ -75,13 +71,9 @@ def test_masking_noise_has_as_much_power_in_each_octave() -> None:
     assert abs(sound[0] - sound[-1]) < 5 * np.diff(sound).std()  # it can play in a loop
 
 
-@pytest.mark.parametrize(("scale", "held"), [("linear", "81 %"), ("log", "91 % to 99 %")])
-def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path, scale: str, held: str) -> None:
-    text = YES if scale == "linear" else YES.replace("[stimulus]", '[stimulus]\nscale = "log"')
-    protocol = load_protocol(written(tmp_path, text))
+def test_an_unfinished_session_is_reported_as_too_short(tmp_path: Path) -> None:
+    protocol = load_protocol(written(tmp_path, YES))
     with Session(protocol, tmp_path, "P01") as session:
         header = session.header
-    found = write_report(protocol, {"P01": [header]}, tmp_path / "report")
-    assert found.people[0].reason.startswith("0 answers are too few")
-    report = (tmp_path / "report" / "report.md").read_text()
-    assert "| P01 | 0 | 0 answers" in report and f"is, {held}" in report
+    write_report(protocol, {"P01": [header]}, tmp_path / "report")
+    assert "| P01 | 0 | 0 answers are too few" in (tmp_path / "report" / "report.md").read_text()
