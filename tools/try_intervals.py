@@ -2,7 +2,7 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
-        [--delay 0] [--tolerance 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
+        [--delay 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -12,7 +12,9 @@ so that it cannot tell some parameters. --machine: the needle moves at one speed
 whose encoder has counts. --inward: the trace ends at its greatest depth. --walk: the standard deviation,
 N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
 multiples of these, m and N. --lag, --delay: of the force sensor, s. --tolerance: the true diameter of the needle is
-within this share of the stated one, in 95 of 100 traces, and identify is told so. --walls: with 2, the second surface
+within this share of the stated one, in 95 of 100 traces, and identify is told so. --wrong: the
+stated diameter is off by this share, up or down, and "warned" says how often the result doubts the needle.
+--walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
 it is right. --auto: the number is not given for one wall, too.
 
@@ -58,7 +60,7 @@ HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
-    "--tolerance": "of the diameter",
+    "--tolerance": "of the diameter", "--wrong": "of the diameter",
 }  # fmt: skip
 
 
@@ -80,6 +82,7 @@ class Conditions:
     lag: float = 0.0
     delay: float = 0.0
     tolerance: float = 0.0
+    wrong: float = 0.0
     walls: int = 1
     apart: float = 0.5
     auto: bool = False
@@ -201,7 +204,8 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     trace, needle, truth = random_trace(seed, given)
     if given.early:
         trace = until_half(trace, truth, needle)
-    share = given.tolerance * np.random.default_rng(10**6 + seed).normal() / 1.96
+    drawn = np.random.default_rng(10**6 + seed).normal()
+    share = given.tolerance * drawn / 1.96 + given.wrong * np.sign(drawn)
     stated = pn.Needle(needle.diameter * (1 + share), needle.tip_angle)
     known = Rig(diameter_tolerance=given.tolerance * needle.diameter)
     chosen = given.auto or given.walls > 1
@@ -214,6 +218,8 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     rows = []
     if chosen:
         rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
+    if given.wrong:
+        rows.append(Row("warned", True, any("stated needle" in verdict for verdict in found.verdicts), False))
     for estimate in found.estimates:
         kind, value = estimate.name.rpartition(".")[2], truth.get(estimate.name)
         if value is not None:

@@ -28,6 +28,8 @@ SOME = 4  # traces, in every run of the tests
         (Conditions(machine=True, delay=0.02), 0.93),
         (Conditions(machine=True, depth_step=10e-6, force_step=20e-3), 0.93),
         (Conditions(machine=True, noise=3e-3, force_step=20e-3), 0.9),
+        (Conditions(machine=True, inward=True, auto=True), 0.93),
+        (Conditions(machine=True, walls=2, apart=0.5), 0.93), (Conditions(machine=True, walls=2, apart=1.3), 0.93),
     ],
 )  # fmt: skip
 def test_intervals_of_95_percent_hold_the_truth(given, level):
@@ -36,6 +38,13 @@ def test_intervals_of_95_percent_hold_the_truth(given, level):
         shown = [row for row in rows if row.kind == kind and row.identifiable]
         least = binom.ppf(CHANCE, len(shown), level)
         assert sum(row.held for row in shown) >= least, kind
+
+
+@pytest.mark.statistics
+def test_a_needle_that_is_stated_wrongly_is_named():
+    given = Conditions(machine=True, auto=True, wrong=0.22)
+    warned = [row.held for seed in range(1, TRACES + 1) for row in tried(seed, given) if row.kind == "warned"]
+    assert sum(warned) >= 0.8 * TRACES
 
 
 @pytest.mark.statistics
