@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "punctura/model/law.hpp"
@@ -13,14 +14,17 @@ namespace punctura {
 /// What is wrong with the pieces of a law, as a sentence; empty if nothing is.
 template <typename Pieces>
 std::string flaw_of(const Pieces& pieces) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto level = [](const auto& edge) { return edge.c1 == 0 && edge.c2 == 0; };
-  const auto& front = pieces.piece(0);
+  std::size_t first = 0;  // TissueLaw keeps a piece for a hole that is finished: it is empty if its end is -infinity
+  while (first < pieces.last() && static_cast<double>(pieces.end(first)) == -infinity) ++first;
+  const auto& front = pieces.piece(first);
   const auto& back = pieces.piece(pieces.last());
   if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0)
     return "its band must be 0 in front of the first break";
   if (!level(back.lower) || !level(back.upper)) return "its edges must be constant behind the last break";
   double from = 0;
-  for (std::size_t i = 1; i <= pieces.last() && std::isfinite(from); ++i) {
+  for (std::size_t i = first + 1; i <= pieces.last() && std::isfinite(from); ++i) {
     const auto start = static_cast<double>(pieces.end(i - 1));
     if (!(start >= from))
       return "its break " + std::to_string(i - 1) + " must be at " + decimal_text(from) + " m or deeper";

@@ -194,6 +194,10 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
   const BandPiece<double> good{0, {-1, 2}, {1, -2}}, level{0, {-1}, {1}};
   CHECK(problem_of({{0, 1e-3}, {{{}, good, level}}}).empty());
   CHECK(problem_of({{0, std::numeric_limits<double>::infinity()}, {{{}, level, level}}}).empty());
+  std::vector<Problem> problems;  // of a law of core that is used as one's own
+  CHECK(try_build<double>(paper_scene(1e-3), problems, [](Needle needle, Membrane membrane, auto) {
+    return TissueLaw(needle, membrane, Tissue{});
+  }));
   const auto faulty = [&](const Table& table, const char* words) {
     const std::string line = problem_of(table);
     CAPTURE(line);
