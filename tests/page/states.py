@@ -153,7 +153,7 @@ def _lab(page: Page) -> Iterator[State]:
     yield State("runs compared", "dialog")
     dialog.get_by_role("button", name="Show in the plots").click()
     dialog.get_by_role("button", name="Close", exact=True).click()
-    form = dropped(page, step=150e-6)  # few samples are identified soon
+    form = dropped(page)
     form.get_by_role("button", name="Identify").click()
     expect(form.get_by_label("Unit of the depth")).to_have_attribute("aria-invalid", "true")
     yield State("a dropped trace with a question unanswered, and a mean in the plots", ".force-depth, .side")

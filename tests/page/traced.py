@@ -13,9 +13,9 @@ DROP = """([name, text]) => {
 }"""
 
 
-def measured(step: float = 50e-6) -> str:
-    """A trace that the core makes, as CSV: one wall, in and out, with noise; the depth has no unit. step: of depth."""
-    depth = np.concatenate([np.arange(0, 15e-3, step), np.arange(15e-3, 0, -step)])
+def measured() -> str:
+    """A trace that the core makes, as CSV: one wall, in and out, with noise; the depth has no unit."""
+    depth = np.concatenate([np.arange(0, 15e-3, 50e-6), np.arange(15e-3, 0, -50e-6)])
     wall = pn.ThickLaw(pn.Needle(1.2e-3, 0.4), pn.Membrane(600, 0.3, 0.2, 0.5e-3))
     force = -pn.Proxy1d(wall, pn.Coupling(4000, 1.0), 0.01).run(depth - 5e-3).force
     force = force + 0.01 * np.random.default_rng(1).standard_normal(len(depth))
@@ -23,9 +23,9 @@ def measured(step: float = 50e-6) -> str:
     return "\n".join(["time_s,depth,force_N", *(f"{t:.2f},{q:.6g},{f:.6g}" for t, q, f in rows)])
 
 
-def dropped(page: Page, step: float = 50e-6) -> Locator:
+def dropped(page: Page) -> Locator:
     """Drops the trace into the page. The form with the questions about it."""
-    page.evaluate(DROP, ["insertion.csv", measured(step)])
+    page.evaluate(DROP, ["insertion.csv", measured()])
     return page.get_by_role("form", name="What the studio must know of insertion.csv")
 
 
