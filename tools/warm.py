@@ -13,6 +13,7 @@ import gc
 import importlib
 import json
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -29,7 +30,8 @@ PROGRAM = str(Path(__file__).resolve())
 def warm(folder: Path, *options: str) -> Iterator[tuple[str, ...]]:
     """A command that is `punctura`, as long as the context lasts. options: of the interpreter."""
     path = str(folder / "warm")
-    with subprocess.Popen([sys.executable, PROGRAM, path, *options], stdout=subprocess.PIPE) as process:
+    command, pipe = [sys.executable, PROGRAM, path, *options], subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe) as process:
         try:
             assert process.stdout and process.stdout.readline() == b"ready\n"
             yield sys.executable, "-S", "-E", PROGRAM, path
@@ -58,6 +60,8 @@ def serve(path: str) -> None:
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for the guards
         print("ready", flush=True)
         while True:
+            if sys.stdin in select.select([listener, sys.stdin], [], [])[0]:
+                sys.exit()  # the tests have gone
             connection, _ = listener.accept()
             if os.fork() == 0:
                 break
