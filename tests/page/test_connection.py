@@ -32,13 +32,15 @@ def test_a_page_whose_token_is_of_another_run_says_so_and_tries_no_more(page, st
         expect(page.locator(".connection-words")).to_contain_text("Refused: This needs the token")
 
 
-def test_a_second_page_looks_on_until_it_takes_control(page, studio, browser):
+def test_a_second_page_may_only_turn_the_force_off_until_it_takes_control(page, studio, browser):
     ready(page)
     second = browser.new_page()
     on_the_bench(second.context)
     second.add_init_script(NO_STORAGE)
     second.goto(studio.url)
     expect(second.get_by_role("button", name="Take control").first).to_be_visible()
+    second.get_by_role("button", name="Turn force off").click()
+    expect(second.get_by_role("button", name="Turn force on")).to_be_disabled()
     second.get_by_role("button", name="Take control").first.click()
     expect(page.get_by_role("button", name="Take control").first).to_be_visible()
     assert second.url == studio.url  # a page that may keep nothing needs the token there for a reload

@@ -25,9 +25,10 @@ export function stateButton(app: App): HTMLElement {
   let shown = -1;
   button.addEventListener("click", () => void app.ask({ do: shown === DISARMED ? "arm" : "pause" }));
   const enable = (): void => {
-    button.disabled = app.connection.value.state !== "open" || !app.control.value.you || shown < 0;
+    const locked = shown === DISARMED && !app.control.value.you; // any page may turn the force off
+    button.disabled = app.connection.value.state !== "open" || shown < 0 || locked;
     button.hidden = shown === FAULTED;
-    button.title = app.control.value.you ? "" : controlWords(app);
+    button.title = locked ? controlWords(app) : "";
   };
   app.connection.watch(enable);
   app.control.watch(enable);
