@@ -3,7 +3,7 @@
 import pytest
 from axe import AXE, none_found
 from person import NO_WEBGL, opened, ready, tab, view, whole_at
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 from studio_process import StudioProcess
 from watched_page import COUNT
 
@@ -144,6 +144,24 @@ def test_without_webgl_the_slice_is_the_stage_and_a_drag_along_its_needle_goes_t
                 break
         page.mouse.up()
         expect(marks(page)).not_to_have_count(0)
+
+
+def test_with_a_device_the_stage_has_the_state_of_the_force_and_its_button(page):
+    simulated, real = '"simulated":true', '"simulated":false'
+
+    def as_a_device(page_side: WebSocketRoute) -> None:
+        studio_side = page_side.connect_to_server()
+        studio_side.on_message(lambda m: page_side.send(m.replace(simulated, real) if isinstance(m, str) else m))
+
+    page.route_web_socket("**", as_a_device)
+    page.reload()
+    state = page.locator(".stage-buttons .servo-state")
+    expect(state).to_contain_text("Force on")
+    page.get_by_role("button", name="Turn force off").click()
+    expect(state).to_contain_text("Force off")
+    for size in SIZES:
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        page.wait_for_function(WORDS_WHOLE)
 
 
 def test_the_sentence_is_bound_to_the_place_of_the_needle(page):

@@ -12,6 +12,7 @@ import { withStudio } from "./controls/needs_studio.ts";
 import { phasesPanel } from "./controls/phases.ts";
 import { playerBar } from "./controls/recordings/player.ts";
 import { recordingsPanel } from "./controls/recordings.ts";
+import { stateButton } from "./controls/state_button.ts";
 import { tabs } from "./controls/tabs.ts";
 import { tour } from "./controls/tour.ts";
 import { type Panel, placed } from "./panel.ts";
@@ -55,6 +56,11 @@ export function bench(root: HTMLElement, app: App): void {
     ),
     place("player", "Replay", playerBar),
   );
+  const force = stateButton(app); // of a device, on the stage; a simulated force reaches no hand
+  root.querySelector(".stage-buttons")!.append(force);
+  app.hello.watch((hello) => {
+    force.hidden = hello?.device.simulated !== false;
+  });
   arrange(root, app);
   tour(root, app);
 }

@@ -20,7 +20,7 @@ export function layout(root: HTMLElement, app: App): void {
   loadBench(root, app);
 }
 
-/** The bench also has the replay, the results of exercises, the sound and the gamepad. */
+/** The bench also has the force's button, the replay, the results of exercises, the sound and the gamepad. */
 function loadBench(root: HTMLElement, app: App): void {
   let begun = false;
   const load = (needed: boolean): void => {
@@ -37,6 +37,9 @@ function loadBench(root: HTMLElement, app: App): void {
   pageOf(app).watch((page) => load(page === "bench"));
   app.source.watch(({ live }) => load(!live));
   app.exercise.watch((exercise) => load(exercise?.running ?? false));
+  const device = (): void => load(app.hello.value?.device.simulated === false);
+  app.hello.watch(device);
+  app.sitting.watch(device);
   app.live.events.watch((events) => load(events.some(({ what }) => what === "pop")));
   window.addEventListener("gamepadconnected", () => load(true));
   // The scene comes after a participant's session, in which no sound tells of a pop.
