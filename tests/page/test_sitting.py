@@ -12,7 +12,7 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
         expect(page.get_by_text("Press a key for the sound.")).to_be_visible()
         with page.expect_response(lambda answer: answer.url.endswith("/api/noise.wav")):
             page.keyboard.press("Enter")
-        sentence(page, "Trial 19 of 20: push the needle through the thin membrane")
+        sentence(page, "Trial 19 of 20: push the needle through the tissue")
         expect(page.get_by_text("Press a key for the sound.")).to_be_hidden()
         expect(page.locator(".stage-force")).to_be_hidden()
         expect(page.locator(".stage-curve")).to_be_hidden()

@@ -15,6 +15,7 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
 from punctura.perception.protocol import ANSWERS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
 from punctura.perception.stimulus import QUANTITIES, built, cut_by_limits, simulated, solved
+from punctura.perception.words import problems_of
 from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
 
@@ -41,7 +42,11 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     if file is None:
         raise ConfigurationError(problems, str(path))
     wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
-    problems += [*_answers(file), *(Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad)]
+    problems += [
+        *_answers(file),
+        *problems_of(file.words),
+        *(Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad),
+    ]
     if scene is None or problems:
         raise ConfigurationError(problems, str(path))
     return _shown(path, file, scene)

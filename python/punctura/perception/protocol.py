@@ -14,6 +14,7 @@ from punctura.files.fields import Number, Numbers, Text, WholeNumber
 from punctura.files.tables import Schema, Table
 from punctura.perception.psychometric import Shape
 from punctura.perception.stimulus import QUANTITIES, Felt
+from punctura.perception.words import WordsTable
 from punctura.scene import scene_names
 
 Method = Literal["constant", "staircase", "quest", "adjustment"]
@@ -76,11 +77,18 @@ class ProtocolFile(Table):
     trials: TrialsTable = TrialsTable()
     answers: dict[str, Text] = Field(default_factory=dict)  # the key of each answer
     values: dict[str, Number] = Field(default_factory=dict)  # numbers of the scene in all intervals
+    words: WordsTable = WordsTable()  # the session's sentences and answers in the participant's language
 
 
 SCHEMA = Schema(
     ProtocolFile,
-    {"stimulus": StimulusTable, "trials": TrialsTable, "answers": ProtocolFile, "values": ProtocolFile},
+    {
+        "stimulus": StimulusTable,
+        "trials": TrialsTable,
+        "words": WordsTable,
+        "answers": ProtocolFile,
+        "values": ProtocolFile,
+    },
 )
 
 
@@ -206,5 +214,5 @@ class Protocol:
         given, scenes = self.file.stimulus, [one.scene for one in self.stimuli]
         if self.in_newtons:
             scenes = [scenes[0].with_values({str(given.solve): float((given.between or (0.0,))[0])})]
-        text = repr((self.file.model_dump(exclude={"title", "source"}), scenes))
+        text = repr((self.file.model_dump(exclude={"title", "source", "words"}), scenes))
         return hashlib.sha256(text.encode()).hexdigest()[:16]

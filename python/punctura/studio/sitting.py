@@ -36,8 +36,7 @@ from punctura.studio.session import Session
 from punctura.studio.wire.messages import AnswerKey, SittingMessage
 from punctura.ticks import ABSENT, Ticks
 
-WAIT = "Hold the needle in front of the tissue."
-GO = {"Go on": "Enter"}
+GO = {"go_on": "Enter"}
 NOISE_S = 20
 _NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}")
 Then = Callable[[str], None]  # gets an answer
@@ -53,11 +52,13 @@ class PerceptionSitting:
         """base: the scene's file. The answers are beside the studio's recordings. Raises SessionError."""
         self.sound = pink_noise(NOISE_S) if protocol.file.noise else b""
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
+        self._words = protocol.file.words
         self._folder = studio.shelf.folder
         self._shown = SittingMessage(
             question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise
         )
         self._then: Then = lambda answer: None
+        self._read: dict[str, str] = {}  # each answer as the participant reads it
         self._remark = ""  # on the last answer
         self._held = 0  # buttons
         self._trial: Trial | None = None
@@ -72,16 +73,17 @@ class PerceptionSitting:
     def start(self) -> None:
         self._idle()
         if self._answers is None:
-            self._say(f"{self._protocol.file.consent} Do you agree?", {"yes": "y", "no": "n"}, self._consented)
+            consent = f"{self._protocol.file.consent} {self._words.agree}"
+            self._say(consent, {"yes": "y", "no": "n"}, self._consented)
         else:
             self._welcome()
 
     def respond(self, question: int, answer: str) -> None:
         now = self._shown
         number = now.any_number and _NUMBER.fullmatch(answer) and float(answer) > 0
-        if question == now.question and (number or answer in (one.name for one in now.answers)):
+        if question == now.question and (number or answer in self._read):
             then, self._then = self._then, lambda _: None  # once: a defect in it must not save an answer twice
-            then(answer)
+            then(self._read.get(answer, answer))
 
     def close(self) -> None:
         """After the studio has stopped."""
@@ -93,7 +95,7 @@ class PerceptionSitting:
 
     def _consented(self, answer: str) -> None:
         if answer == "no":
-            self._say("Then there is no session. Thank you.")
+            self._say(self._words.declined)
             return
         try:
             self._open()
@@ -104,18 +106,19 @@ class PerceptionSitting:
 
     def _welcome(self) -> None:
         assert self._answers
-        done = f"{self._answers.kept} of {len(self._answers.course)} trials are done." if self._answers.kept else ""
-        self._say(done or self._protocol.file.instruction or "The session begins.", GO, lambda _: self._next())
+        kept, words = self._answers.kept, self._words
+        done = words.resumed.format(done=kept, trials=len(self._answers.course)) if kept else ""
+        self._say(done or self._protocol.file.instruction or words.begins, GO, lambda _: self._next())
 
     def _next(self) -> None:
         assert self._answers
         before, self._trial, self._attempt = self._trial, self._answers.next(), 0
         if self._trial is None:
-            self._say("That was the last trial. Thank you.")
+            self._say(self._words.last)
         elif before and self._trial.block != before.block:
             seconds = self._protocol.file.trials.break_s
-            rest = "" if seconds is None else f" Rest for at least {float(seconds):g} s."
-            self._say(f"A block is over.{rest}", GO, lambda _: self._begin())
+            rest = "" if seconds is None else f" {self._words.rest.format(seconds=f'{float(seconds):g}')}"
+            self._say(self._words.block + rest, GO, lambda _: self._begin())
         else:
             self._begin()
 
@@ -125,8 +128,8 @@ class PerceptionSitting:
         assert trial
         fault = studio.run.fault  # of the run between the trials
         if fault != Fault.none or not studio.arming.armed:  # only a person turns it on again, docs/safety.md
-            why = f": {describe(fault)}" if fault != Fault.none else ""
-            self._say(f"The force is off{why}. It comes back when you go on.", GO, lambda _: self._armed())
+            words = self._words.fault.format(why=describe(fault)) if fault != Fault.none else self._words.off
+            self._say(words, GO, lambda _: self._armed())
             return
         self._attempt += 1
         self._interval = 0
@@ -161,7 +164,7 @@ class PerceptionSitting:
 
     def _explore(self) -> None:
         """The interval begins: the needle may go through the tissue as soon as the view is uncovered."""
-        self._say(WAIT)
+        self._say(self._words.wait)
         self._through = crossing(self._scene().scene, self._protocol.membrane, 1.0).through
         self._touched = self._was_through = self._over = False
         self._uncover_at = time.monotonic() + (READY_S if self._interval else self._ramp)
@@ -171,15 +174,13 @@ class PerceptionSitting:
         """Until the force is whole, s."""
         return READY_S + float(self._studio.run.loop.limits.ramp_time)
 
-    def _words(self) -> str:
+    def _sentence(self) -> str:
         assert self._trial and self._answers
-        practice = ", practice" * (self._trial.kind == "practice")
-        which = ("first", "second", "third")[self._interval]
-        return (
-            f"Trial {self._answers.course.at + 1} of {len(self._answers.course)}{practice}"
-            f"{f', {which} interval' * (self._protocol.intervals > 1)}: push the needle through the "
-            f"{self._base.scene.membranes[self._protocol.membrane].name}, then draw it out."
-        )
+        words, course = self._words, self._answers.course
+        sentence = words.interval if self._protocol.intervals > 1 else words.trial
+        at, interval = course.at + 1, self._interval + 1
+        sentence = sentence.format(trial=at, trials=len(course), interval=interval, stroke=words.stroke)
+        return f"{words.practice} {sentence}" if self._trial.kind == "practice" else sentence
 
     def _explored(self) -> None:
         """The needle was through and is out again."""
@@ -187,7 +188,7 @@ class PerceptionSitting:
         if self._interval == self._protocol.intervals:
             self._finish()
             return
-        self._say(WAIT)
+        self._say(self._words.wait)
         try:
             self._studio.edit(self._scene())
         except (PuncturaError, ValueError) as bad:
@@ -197,7 +198,7 @@ class PerceptionSitting:
 
     def _finish(self, reason: str = "") -> None:
         """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
-        self._say(WAIT)
+        self._say(self._words.wait)
         trial, recording = self._trial, self._folder / f"{self._name()}.parquet"
         assert trial
 
@@ -224,8 +225,8 @@ class PerceptionSitting:
 
     def _again(self, why: str) -> None:
         self._studio.run.loop.pause()  # the run may be the one before, which began again
-        words = f"The trial is repeated: {why.rstrip('. ')}. {WAIT}"
-        self._say(words, GO, lambda _: self._armed())
+        words = self._words.repeated.format(why=why.rstrip(". "))
+        self._say(f"{words} {self._words.wait}", GO, lambda _: self._armed())
 
     def _ask(self, felt: list[Felt]) -> None:
         answers, question = self._protocol.answers, self._protocol.file.question
@@ -240,18 +241,20 @@ class PerceptionSitting:
             self._say(f"{sentence_of(bad)}.", GO, lambda _: self._save(answer, felt))
             return
         if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
-            self._remark = "Right. " if counted(protocol, trial.position, answer) else "That was another one. "
+            right = counted(protocol, trial.position, answer)
+            self._remark = f"{self._words.right if right else self._words.wrong} "
         self._next()
 
     def _say(
         self, sentence: str, answers: Mapping[str, str] | None = None, then: Then = lambda answer: None, **more: bool
     ) -> None:
         """answers: the key of each. more: fields of the message."""
-        keys = [AnswerKey(name=name, key=key) for name, key in (answers or {}).items()]
+        self._read = {getattr(self._words, name, name): name for name in answers or {}}
+        keys = [AnswerKey(name=name, key=key) for name, key in zip(self._read, (answers or {}).values(), strict=True)]
         new = {"question": self._shown.question + 1, "sentence": self._remark + sentence, "answers": keys}
         self._shown = self._shown.model_copy(update={"covered": True, "any_number": False, **new, **more})
         self._then = then
-        if sentence != WAIT:
+        if sentence != self._words.wait:
             self._remark = ""
         self._studio.out.send(self._shown)
 
@@ -271,10 +274,10 @@ class PerceptionSitting:
             self._uncover_at = now + self._ramp
         elif now >= self._uncover_at:
             self._uncover_at = math.inf
-            self._say(self._words(), covered=not self._protocol.file.picture)
+            self._say(self._sentence(), covered=not self._protocol.file.picture)
         elif self._touched and not self._was_through and outside:
             self._touched = False
-            self._say(f"Not through yet: push deeper. {self._words()}", covered=not self._protocol.file.picture)
+            self._say(f"{self._words.deeper} {self._sentence()}", covered=not self._protocol.file.picture)
         fault = Fault(int(ticks.fault[-1]))
         why = describe(fault) if fault != Fault.none else "the force was turned off" * (not self._studio.arming.armed)
         if why or (self._was_through and outside):

@@ -56,6 +56,15 @@ class Person:
             self.page.wait(lambda n=before, what=what: what in [event["what"] for event in self.page.of("event")[n:]])
 
 
+GERMAN = """
+[words]
+agree = "Sind Sie einverstanden?"
+go_on = "Weiter"
+interval = "Durchgang {trial}, Teil {interval}: {stroke}"
+second = "zweite"
+"""
+
+
 @contextmanager
 def sat(folder: Path, text: str, limits: ForceLimits | None = None) -> Iterator[tuple[Person, StudioServer]]:
     protocol = load_protocol(written(folder, text + SCALED))
@@ -81,20 +90,20 @@ def saved(folder: Path) -> list[dict]:
 
 
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
-    text = 'consent = "I agree."\nnoise = true\n' + COMPARES
+    text = 'consent = "I agree."\nnoise = true\n' + COMPARES + GERMAN
     with sat(tmp_path, text) as (person, _):
-        person.reads("I agree. Do you agree?")
+        person.reads("I agree. Sind Sie einverstanden?")
         assert person.page.get("/api/noise.wav")[1][:4] == b"RIFF"
         assert not person.page.ask(do="load", scene="venipuncture")["ok"]  # a session has the studio for itself
         person.answers("yes")
-        person.reads("The session begins.")
-        person.answers("Go on")
-        person.goes_through("Trial 1 of 120, first interval: push")
-        person.goes_through("Trial 1 of 120, second interval: push")
+        person.reads("The session begins.")  # what is left out is English
+        person.answers("Weiter")
+        person.goes_through("Durchgang 1, Teil 1: push the needle through the tissue")
+        person.goes_through("Durchgang 1, Teil 2: push the needle through the tissue")
         person.reads("Which one fell more?")
         assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
-        person.answers("second")
-        person.reads("Trial 2")
+        person.answers("zweite")
+        person.reads("Durchgang 2")
     header, first = saved(tmp_path)
     assert header["consent"] and first["answer"] == "second"
     recording = open_recording(tmp_path / "out" / first["recordings"][0])
@@ -138,13 +147,13 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
 
         monkeypatch.setattr(server.session, "edit", inside)
         person.answers("Go on")
-        person.goes_through("first interval")
-        person.goes_through("second interval")
+        person.goes_through("interval 1")
+        person.goes_through("interval 2")
         person.reads("repeated: the needle was in the tissue before the interval began")
         person.answers("Go on")
         for wrong, remark in ((False, "Right. "), (True, "That was another one. ")):
-            person.goes_through("first interval")
-            person.goes_through("second interval")
+            person.goes_through("interval 1")
+            person.goes_through("interval 2")
             person.reads("Which one fell more?")
             right = server.session.sitting._trial.position
             person.answers(person.now["answers"][right ^ wrong]["name"])

@@ -1,0 +1,73 @@
+"""What a participant reads beside the protocol's own texts, and its checks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from string import Formatter
+
+from punctura.errors import Problem
+from punctura.files.fields import Text
+from punctura.files.tables import Table
+
+
+class WordsTable(Table):
+    """Each sentence and each answer of a session, in English if left out. A text in braces is filled in."""
+
+    agree: Text = "Do you agree?"
+    declined: Text = "Then there is no session. Thank you."
+    begins: Text = "The session begins."  # without an instruction
+    resumed: Text = "{done} of {trials} trials are done."
+    go_on: Text = "Go on"
+    wait: Text = "Hold the needle in front of the tissue."
+    trial: Text = "Trial {trial} of {trials}: {stroke}"
+    interval: Text = "Trial {trial} of {trials}, interval {interval}: {stroke}"
+    practice: Text = "Practice."
+    stroke: Text = "push the needle through the tissue, then draw it out."
+    deeper: Text = "Not through yet: push deeper."
+    right: Text = "Right."
+    wrong: Text = "That was another one."
+    block: Text = "A block is over."
+    rest: Text = "Rest for at least {seconds} s."
+    repeated: Text = "The trial is repeated: {why}."  # the reason is English
+    off: Text = "The force is off. It comes back when you go on."
+    fault: Text = "The force is off: {why}. It comes back when you go on."
+    last: Text = "That was the last trial. Thank you."
+    yes: Text = "yes"
+    no: Text = "no"
+    first: Text = "first"
+    second: Text = "second"
+    third: Text = "third"
+    less: Text = "less"
+    more: Text = "more"
+    equal: Text = "equal"
+
+
+ANSWERS = ("yes", "no", "first", "second", "third", "less", "more", "equal")
+
+
+def problems_of(words: WordsTable) -> Iterator[Problem]:
+    """An empty text, braces that nothing fills in, and two answers that read the same."""
+    for key, field in WordsTable.model_fields.items():
+        text, filled = getattr(words, key), _braces(field.default)
+        allowed = " and ".join(f"{{{name}}}" for name in sorted(filled)) or "no braces"
+        if not text.strip():
+            yield Problem(f"words.{key}", text, "must not be empty: leave it out for English")
+        elif not _braces(text) <= filled:
+            yield Problem(f"words.{key}", text, f"may have {allowed}, and no other text in braces")
+    read: dict[str, str] = {}
+    for key in ANSWERS:
+        text = getattr(words, key).strip()
+        if text in read:
+            yield Problem(f"words.{key}", text, f"is what {read[text]} reads, too; give each answer its own")
+        read.setdefault(text, key)
+
+
+def _braces(text: str) -> set[str]:
+    try:
+        return {
+            f"{name}{'!' if convert or how else ''}"
+            for _, name, how, convert in Formatter().parse(text)
+            if name is not None
+        }
+    except ValueError:  # a brace alone
+        return {"{"}
