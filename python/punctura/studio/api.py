@@ -29,7 +29,7 @@ from punctura.studio.limits import MOST_EXPORTS
 from punctura.studio.names import BadName, safe_name
 from punctura.studio.recorded import FEWEST, MOST, USUAL, overview, thinned_trace, tick_frames
 from punctura.studio.security import TooLarge
-from punctura.studio.session import Session
+from punctura.studio.session import SITTING_RUNS, Session
 from punctura.studio.shelf import SUFFIX, Busy, Missing
 from punctura.studio.traces import FILE, IDENTIFY, Late, Traces
 
@@ -65,26 +65,58 @@ class Api:
     def routes(self) -> list[Route]:
         one = "/api/recordings/{name}"
         return [
-            Route("/api/recordings", _with_status(self.recordings)),
-            Route(one, _with_status(self.recording), methods=["GET"]),
-            Route(one, _with_status(self.delete), methods=["DELETE"]),
-            Route(one + "/ticks", _with_status(self.ticks)),
-            Route(one + "/trace", _with_status(self.trace)),
-            Route(one + "/download", _with_status(self.download)),
-            Route("/api/fault.csv", _with_status(self.fault_ticks)),
-            Route("/api/lab/fields", _with_status(self._lab.fields)),
-            Route("/api/lab/compare", _with_status(self._lab.compare)),
-            Route("/api/lab/bundle", _with_status_async(self._lab.bundle)),
-            Route(FILE, _with_status_async(self._traces.file), methods=["POST"]),
-            Route(IDENTIFY, _with_status_async(self._traces.identify), methods=["POST"]),
-            Route("/api/exercises", _with_status(self.exercises)),
-            Route("/api/scenes", _with_status(self.scenes)),
-            Route("/api/results", _with_status(self.results)),
-            Route("/api/results/download", _with_status(self.download_results)),  # before NAME: no result has this name
-            Route("/api/results/{name}", _with_status(self.result), methods=["GET"]),
-            Route("/api/results/{name}", _with_status(self.delete_result), methods=["DELETE"]),
-            Route("/api/results/{name}/download", _with_status(self.download_result)),
+            Route("/api/recordings", self._with_status(self.recordings)),
+            Route(one, self._with_status(self.recording), methods=["GET"]),
+            Route(one, self._with_status(self.delete), methods=["DELETE"]),
+            Route(one + "/ticks", self._with_status(self.ticks)),
+            Route(one + "/trace", self._with_status(self.trace)),
+            Route(one + "/download", self._with_status(self.download)),
+            Route("/api/fault.csv", self._with_status(self.fault_ticks)),
+            Route("/api/lab/fields", self._with_status(self._lab.fields)),
+            Route("/api/lab/compare", self._with_status(self._lab.compare)),
+            Route("/api/lab/bundle", self._with_status_async(self._lab.bundle)),
+            Route(FILE, self._with_status_async(self._traces.file), methods=["POST"]),
+            Route(IDENTIFY, self._with_status_async(self._traces.identify), methods=["POST"]),
+            Route("/api/exercises", self._with_status(self.exercises)),
+            Route("/api/scenes", self._with_status(self.scenes)),
+            Route("/api/results", self._with_status(self.results)),
+            Route(
+                "/api/results/download", self._with_status(self.download_results)
+            ),  # before NAME: no result has this name
+            Route("/api/results/{name}", self._with_status(self.result), methods=["GET"]),
+            Route("/api/results/{name}", self._with_status(self.delete_result), methods=["DELETE"]),
+            Route("/api/results/{name}/download", self._with_status(self.download_result)),
         ]
+
+    def _with_status(self, endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
+        """Errors become an HTTP status and a sentence."""
+
+        def answer(request: Request) -> Response:
+            try:
+                self._check_free()
+                return endpoint(request)
+            except Exception as error:
+                return _refusal(error)
+
+        return answer
+
+    def _with_status_async(
+        self, endpoint: Callable[[Request], Awaitable[Response]]
+    ) -> Callable[[Request], Awaitable[Response]]:
+        """The same for an endpoint that takes the request's body while it comes."""
+
+        async def answer(request: Request) -> Response:
+            try:
+                self._check_free()
+                return await endpoint(request)
+            except Exception as error:
+                return _refusal(error)
+
+        return answer
+
+    def _check_free(self) -> None:
+        if self._session.sitting:  # its recordings must stay, and its ticks need the processor
+            raise Busy(SITTING_RUNS)
 
     def recordings(self, request: Request) -> Response:
         return json_of(self._shelf.entries(exclude=self._session.recording))
@@ -200,30 +232,6 @@ def _sentence(status: int, text: str) -> Response:
 
 def _ticks_of(path: Path) -> Response:
     return Download(tick_frames(open_recording(path)), media_type="application/octet-stream")
-
-
-def _with_status(endpoint: Callable[[Request], Response]) -> Callable[[Request], Response]:
-    """Errors become an HTTP status and a sentence."""
-
-    def answer(request: Request) -> Response:
-        try:
-            return endpoint(request)
-        except Exception as error:
-            return _refusal(error)
-
-    return answer
-
-
-def _with_status_async(endpoint: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
-    """The same for an endpoint that takes the request's body while it comes."""
-
-    async def answer(request: Request) -> Response:
-        try:
-            return await endpoint(request)
-        except Exception as error:
-            return _refusal(error)
-
-    return answer
 
 
 def _refusal(error: Exception) -> Response:

@@ -20,7 +20,7 @@ from punctura.studio.loaded import Loaded, from_name, from_tables, from_text, pr
 from punctura.studio.making import made_of, make
 from punctura.studio.own_exercises import NameExists
 from punctura.studio.recorded import motion_of
-from punctura.studio.session import Session
+from punctura.studio.session import SITTING_RUNS, Session
 from punctura.studio.wire import requests as ask
 from punctura.studio.wire.messages import Notice, Reply
 
@@ -39,7 +39,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     """The worker's job for a request. Raises errors that `refusal` knows, and then changes nothing. A pause is not a
     job, see Session.pause."""
     if session.sitting and not isinstance(request, IN_SITTING):
-        raise NotNow("a participant's session runs")
+        raise NotNow(SITTING_RUNS)
     match request:
         case ask.Respond():
             return lambda session: _respond(session, request)

@@ -29,6 +29,7 @@ from punctura.studio.wire.requests import Target
 
 T = TypeVar("T")
 
+SITTING_RUNS = "a participant's session runs"  # why a request is refused
 PUMP_S = 1 / 60
 STATUS_S = 0.25
 AT_ONCE = 2048  # ticks in one turn, or four turns' worth; after a stall, requests are served between the turns

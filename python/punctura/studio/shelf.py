@@ -33,7 +33,7 @@ class Missing(ValueError):
 
 
 class Busy(ValueError):
-    """The recording is still being written."""
+    """The recording is still being written, or a participant's session has it."""
 
 
 @dataclass(frozen=True)

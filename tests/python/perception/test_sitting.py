@@ -104,6 +104,9 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
         person.answers("zweite")
         person.reads("Durchgang 2")
+        name = read_session(tmp_path / "out" / "P01.jsonl")[1]["recordings"][0].removesuffix(".parquet")
+        status, why = person.page.get(f"/api/recordings/{name}", "DELETE")
+        assert status == 409 and b"A participant's session runs." in why
     header, first = saved(tmp_path)
     assert header["consent"] and first["answer"] == "second"
     recording = open_recording(tmp_path / "out" / first["recordings"][0])
