@@ -93,7 +93,8 @@ def run(
     try:
         run_sitting(load_protocol(protocol), folder, participant, device, limits, placement, port, not no_browser)
     except Ended as end:
-        leave(end, f"; the force is off, and {folder} keeps the answered trials")
+        kept = f", and {folder} keeps the answered trials" if folder.is_dir() else ""
+        leave(end, f"; the force is off{kept}")
 
 
 @command.command()
@@ -127,7 +128,7 @@ def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
     """Analyses all sessions of a folder: report.md, results.json, trials.csv, trials.parquet, dictionary.csv."""
     from punctura.perception import load_protocol
 
-    _analysed(load_protocol(protocol), _folder(protocol, out), as_json)
+    _analysed(load_protocol(protocol), _folder(protocol, out, there=True), as_json)
 
 
 def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
@@ -221,10 +222,14 @@ def delete(
     """Deletes a participant's session and recordings, and the tables and the report that contain them."""
     from punctura.perception.report import forget
 
-    for path in forget(_folder(protocol, out), participant):
+    for path in forget(_folder(protocol, out, there=True), participant):
         typer.echo(f"deleted {path}")
 
 
-def _folder(protocol: str, out: Path | None) -> Path:
+def _folder(protocol: str, out: Path | None, there: bool = False) -> Path:
+    """there: it must exist."""
     check_folder(out, "--out")
-    return out or Path(protocol).with_suffix(".perception")
+    folder = out or Path(protocol).with_suffix(".perception")
+    if there and not folder.is_dir():
+        raise typer.BadParameter(f"there is no folder {folder}; punctura perception run makes one", param_hint="--out")
+    return folder

@@ -52,7 +52,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert status == 0 and out.count("deleted") == 7
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
     status, _, err = call(capsys, "analyse", file, "--out", tmp_path / "none")
-    assert status == 1 and "has no session" in err
+    assert status == 2 and "there is no folder" in err
     for wrong, words in (("weber=a", "KEY=NUMBER"), ("webber=1", "none of weber, "), ("lapse=2", "from 0 to 1")):
         status, _, err = call(capsys, "power", file, "--observer", wrong)
         assert status == 2 and words in err
