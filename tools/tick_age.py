@@ -38,7 +38,7 @@ const lastOf = (data) => {
   let end = -1;
   for (let at = 4; at < data.byteLength; ) {
     const size = view.getUint32(at, true);
-    if (view.getUint32(at + 4, true) === 0x32544e50) end = endOf(view, at + 4);
+    end = endOf(view, at + 4);
     at += 4 + Math.ceil(size / 4) * 4;
   }
   return end;

@@ -4,12 +4,10 @@ export type Draw = (now: number, painted: boolean) => void;
 const BUSY_MS = 22; // between two pictures with new ticks, on average
 const PAUSE_MS = 250; // a longer gap is a pause, and not a late picture
 const TURN_MS = 66;
-const SLOW_MS = 100; // of one picture: after it, messages have as long a time before the next one
 
 const draws = new Set<Draw>();
 const between = new MessageChannel();
 let handle = 0;
-let pause: ReturnType<typeof setTimeout> | undefined;
 let fresh = false; // ticks have come since the last picture
 let before = 0; // time of the last picture with new ticks
 let interval = 0; // mean of the last intervals between such pictures, ms
@@ -34,9 +32,7 @@ export function everyFrame(draw: Draw): () => void {
   if (draws.size === 1) handle = requestAnimationFrame(frame);
   return () => {
     draws.delete(draw);
-    if (draws.size > 0) return;
-    cancelAnimationFrame(handle);
-    clearTimeout(pause);
+    if (draws.size === 0) cancelAnimationFrame(handle);
   };
 }
 
@@ -68,15 +64,8 @@ export function turns(): (now: number) => boolean {
 
 function frame(now: number): void {
   if (!fresh) between.port2.postMessage(null); // behind the messages that wait
-  const began = performance.now();
   run(now, true);
-  const took = performance.now() - began;
-  if (draws.size === 0) return;
-  if (took < SLOW_MS) handle = requestAnimationFrame(frame);
-  else
-    pause = setTimeout(() => {
-      handle = requestAnimationFrame(frame);
-    }, took);
+  if (draws.size > 0) handle = requestAnimationFrame(frame);
 }
 
 between.port1.onmessage = () => {

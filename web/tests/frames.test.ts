@@ -50,22 +50,6 @@ it("a frame with ticks, and one without any to come, is one picture", async () =
   ]);
 });
 
-it("after a picture that took long, messages have as long a time before the next one", async () => {
-  const times = [0, 240, 0];
-  vi.spyOn(performance, "now").mockImplementation(() => times.shift() ?? 0);
-  vi.useFakeTimers({ toFake: ["setTimeout", "clearTimeout"] });
-  watch();
-  const first = asked;
-  asked = null;
-  first?.(1);
-  vi.advanceTimersByTime(239);
-  expect(asked).toBeNull();
-  vi.advanceTimersByTime(1);
-  expect(asked).not.toBeNull();
-  vi.useRealTimers();
-  vi.restoreAllMocks();
-});
-
 it("when nobody draws any more, no frame is asked for", () => {
   watch();
   watch();

@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
 from punctura.results import JsonObject
-from punctura.studio.wire.frames import MAGIC_BYTES, Frame, decode_ticks, split
+from punctura.studio.wire.frames import Frame, decode_ticks, split
 
 T = TypeVar("T")
 PATIENCE_S = 120.0
@@ -140,13 +140,13 @@ class StudioClient:
     def _read(self) -> None:
         try:
             for data in self._socket:
-                for part in [data] if isinstance(data, str) else split(data):
-                    if isinstance(part, bytes) and part.startswith(MAGIC_BYTES):
-                        self._take(decode_ticks(part))
-                        continue
-                    message = json.loads(part)
+                if isinstance(data, str):
+                    message = json.loads(data)
                     self.run = message["run"] if message["kind"] == "scene" else self.run
                     self.messages.append(message)
+                else:
+                    for frame in split(data):
+                        self._take(decode_ticks(frame))
         except ConnectionClosed:
             pass
         self.closed = (self._socket.close_code or 1006, self._socket.close_reason or "")

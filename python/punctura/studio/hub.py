@@ -61,7 +61,6 @@ class Viewer:
         self._ticks = self._bytes = 0  # bytes of frames and of messages in the queue
         self._on_way = 0  # messages with ticks that were taken here and not yet by the page
         self._answers = False  # whether the page says when it has taken one
-        self._late = False  # whether the last frame had waited for long
         self._heard = 0.0  # s, when it last said so
         self._whole = 0  # so many frames after the last event are sent whole
         self._wake = asyncio.Event()
@@ -106,17 +105,15 @@ class Viewer:
             await self._wake.wait()
         if self.closed:
             return None
-        first = self._queue[0].data
-        if isinstance(first, str):
-            self._popped()
-            return first
-        parts = [self._popped()]
-        size = len(parts[0])
-        while self._answers and self._queue and size < MOST_JOINED:
-            parts.append(self._popped())
-            size += len(parts[-1])
-        self._on_way += 1
-        return parts[0] if len(parts) == 1 else SEVERAL + joined(parts)
+        entry = self._queue.popleft()
+        if isinstance(entry.data, bytes):
+            return self._with_the_next(entry)
+        self._bytes -= len(entry.data)
+        if entry.kind == "event":
+            self._whole = AROUND_EVENT
+        if self._last.get(entry.kind) is entry:
+            del self._last[entry.kind]
+        return entry.data
 
     def took(self) -> None:
         """The page has taken a message with ticks."""
@@ -132,23 +129,25 @@ class Viewer:
     @property
     def _waits(self) -> bool:
         """Whether the page must answer before it gets more ticks."""
-        return self._answers and self._on_way >= (1 if self._late else MOST_ON_WAY)
+        return self._answers and self._on_way >= MOST_ON_WAY
 
-    def _popped(self) -> bytes:
-        """The next entry as it is sent. Of a frame that comes late only the last tick, except around an event."""
-        entry = self._queue.popleft()
-        if isinstance(entry.data, str):
-            self._bytes -= len(entry.data)
-            if entry.kind == "event":
-                self._whole = AROUND_EVENT
-            if self._last.get(entry.kind) is entry:
-                del self._last[entry.kind]
-            return entry.data.encode()
+    def _with_the_next(self, entry: Waiting) -> bytes:
+        """A message with this frame, and for a page that answers with those that wait behind it."""
+        frames = [self._sent(entry)]
+        size = len(frames[0])
+        while self._answers and size < MOST_JOINED and self._queue and isinstance(self._queue[0].data, bytes):
+            frames.append(self._sent(self._queue.popleft()))
+            size += len(frames[-1])
+        self._on_way += 1
+        return frames[0] if len(frames) == 1 else SEVERAL + joined(frames)
+
+    def _sent(self, entry: Waiting) -> bytes:
+        """What a page gets of a frame: all of it, or, if the page is late, its last tick, except around an event."""
+        assert isinstance(entry.data, bytes)
         self._ticks -= len(entry.data)
         self._whole -= 1
-        self._late = self._answers and self._clock() - entry.since >= LATE_S
         near = self._whole >= 0 or any(one.kind == "event" for one in islice(self._queue, AROUND_EVENT))
-        if near or not self._late:
+        if near or not self._answers or self._clock() - entry.since < LATE_S:
             return entry.data
         self.dropped += 1
         return last_of(entry.data)

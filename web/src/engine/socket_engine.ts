@@ -1,11 +1,10 @@
 import { Api, ApiError, type Fetch } from "../wire/api.ts";
 import { framesOf } from "../wire/length_prefixed.ts";
 import { parseMessage } from "../wire/parse.ts";
-import { decodeTicks, FrameError } from "../wire/ticks.ts";
+import { decodeTicks, type TickBatch } from "../wire/ticks.ts";
 import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
 import { Pending } from "./pending.ts";
 
-const BRACE = 0x7b; // the first byte of a JSON message among frames
 const PROTOCOL = "punctura.v1";
 /** A browser hides why a socket was refused; this address gives the same refusal with its reason. */
 const ACCESS = "/api/access";
@@ -154,18 +153,21 @@ export class SocketEngine implements Engine {
     else this.complain("a frame of an unknown type");
   }
 
-  /** Takes a message with ticks, and asks for the next. A page that is late gets all that waits in one message. */
+  /** Takes a message with ticks, and asks for the next: a page that is late gets more frames in one message. */
   private takeTicks(data: ArrayBuffer): void {
     try {
-      for (const part of framesOf(data)) {
-        if (new Uint8Array(part)[0] === BRACE) this.takeMessage(new TextDecoder().decode(part));
-        else this.listener?.ticks(decodeTicks(part));
-      }
-    } catch (error) {
-      if (!(error instanceof FrameError)) throw error;
-      this.complain(error.message);
+      for (const batch of this.decoded(data)) this.listener?.ticks(batch);
     } finally {
       if (this.socket?.readyState === 1) this.socket.send(TOOK);
+    }
+  }
+
+  private decoded(data: ArrayBuffer): TickBatch[] {
+    try {
+      return framesOf(data).map((frame) => decodeTicks(frame));
+    } catch (error) {
+      this.complain(error instanceof Error ? error.message : String(error));
+      return [];
     }
   }
 

@@ -9,7 +9,7 @@ const OUTSIDE = codeOf("phase", "outside");
 const MM = 1e3;
 export const ABOVE_MM = 3; // in front of the skin there is nothing to feel
 const MOST = 20_000; // points; with more, the steps become larger
-const MOST_MISSING = 800; // ticks, over which the curve goes on: half a second
+const MOST_MISSING = 160; // ticks, over which the curve goes on: a tenth of a second
 const FINEST = { depth: 0.01, force: 0.002 } as const; // mm, N
 
 /** A pop at its place on the curve. */

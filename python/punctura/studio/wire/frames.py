@@ -32,10 +32,9 @@ from punctura.ticks import FIELDS, Ticks
 from punctura.ticks.fields import shape_of
 
 MAGIC = 0x32544E50
-MAGIC_BYTES = MAGIC.to_bytes(4, "little")
 HEAD = struct.Struct("<IIIIQdII")
 OTHER_SOLVER = 1
-SEVERAL = b"PNTS"  # a message that begins with it has several frames, and JSON messages between them
+SEVERAL = b"PNTS"  # a message that begins with it has several frames
 
 _ON_PAGE = [field for field in FIELDS.values() if field.on_page]
 NUMBERS = [field for field in _ON_PAGE if field.words is None]
@@ -86,7 +85,7 @@ def joined(frames: Iterable[bytes]) -> bytes:
 
 
 def split(message: bytes) -> list[bytes]:
-    """The parts of a message of the socket: one frame, or several parts behind SEVERAL, each with its length."""
+    """The frames of a message of the socket: one, or several behind SEVERAL, each with its length."""
     if not message.startswith(SEVERAL):
         return [message]
     frames, at = [], len(SEVERAL)

@@ -1,6 +1,6 @@
 import type { Polyline } from "./polyline.ts";
 
-const BRIDGED = 800; // points
+const BRIDGED = 160; // points
 
 /**
  * Decimates the line through `xs`, `ys` (pixels) for drawing. Consecutive points in one pixel column become at most
