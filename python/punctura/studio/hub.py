@@ -1,4 +1,4 @@
-"""All viewers. Each has a queue of its own: a slow viewer gets fewer messages and fewer ticks, and slows nobody else.
+"""All viewers. Each has a queue of its own: a slow viewer gets more frames in a message, or loses its own frames only.
 
 Everything here runs on the server's event loop; the worker's thread uses `post`.
 """
@@ -11,25 +11,15 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice
 
 from pydantic import BaseModel
 
 from punctura.studio.hand import Pose
-from punctura.studio.limits import (
-    LATE_S,
-    MOST_JOINED,
-    MOST_MESSAGES,
-    MOST_ON_WAY,
-    MOST_TICK_BYTES,
-    MOST_VIEWERS,
-    UNREAD_S,
-)
-from punctura.studio.wire.frames import SEVERAL, joined, last_of
+from punctura.studio.limits import MOST_JOINED, MOST_MESSAGES, MOST_ON_WAY, MOST_TICK_BYTES, MOST_VIEWERS, UNREAD_S
+from punctura.studio.wire.frames import SEVERAL, joined
 from punctura.studio.wire.messages import Control, HandPose, Status
 
 UNREAD = "This page does not read what it is sent."
-AROUND_EVENT = 6  # entries of a queue before and after an event: with 60 frames a second, a tenth of a second
 EVENTS_KEPT = 100  # of the present run, for new viewers
 # Of these messages only the newest matters: it takes the place of one that still waits, unless a scene came between.
 SUPERSEDED = ("status", "recording", "laws", "exercise", "sitting")
@@ -45,7 +35,6 @@ class Waiting:
 
     data: Data
     kind: str
-    since: float  # s
 
 
 class Viewer:
@@ -54,7 +43,7 @@ class Viewer:
     def __init__(self, number: int, clock: Callable[[], float] = time.monotonic) -> None:
         self.number = number
         self._clock = clock
-        self.dropped = 0  # frames of which the page gets nothing, or the last tick
+        self.dropped = 0  # frames
         self.closed = ""
         self._queue: deque[Waiting] = deque()
         self._last: dict[str, Waiting] = {}  # of each kind of SUPERSEDED since the last scene, while it waits
@@ -62,13 +51,11 @@ class Viewer:
         self._on_way = 0  # messages with ticks that were taken here and not yet by the page
         self._answers = False  # whether the page says when it has taken one
         self._heard = 0.0  # s, when it last said so
-        self._whole = 0  # so many frames after the last event are sent whole
         self._wake = asyncio.Event()
 
     def put(self, data: Data, kind: str = "") -> None:
         """kind: of a message."""
-        now = self._clock()
-        if self._waits and now - self._heard >= UNREAD_S:
+        if self._waits and self._clock() - self._heard >= UNREAD_S:
             self.close(UNREAD)
         if self.closed:
             return
@@ -85,7 +72,7 @@ class Viewer:
             if waiting:  # at the end of the queue, a page that reads slowly would never get it
                 waiting.data = data
                 return
-        entry = Waiting(data, kind, now)
+        entry = Waiting(data, kind)
         if kind in SUPERSEDED:
             self._last[kind] = entry
         if kind == "scene":  # what follows belongs to this scene
@@ -107,10 +94,8 @@ class Viewer:
             return None
         entry = self._queue.popleft()
         if isinstance(entry.data, bytes):
-            return self._with_the_next(entry)
+            return self._with_the_next(entry.data)
         self._bytes -= len(entry.data)
-        if entry.kind == "event":
-            self._whole = AROUND_EVENT
         if self._last.get(entry.kind) is entry:
             del self._last[entry.kind]
         return entry.data
@@ -131,26 +116,19 @@ class Viewer:
         """Whether the page must answer before it gets more ticks."""
         return self._answers and self._on_way >= MOST_ON_WAY
 
-    def _with_the_next(self, entry: Waiting) -> bytes:
+    def _with_the_next(self, frame: bytes) -> bytes:
         """A message with this frame, and for a page that answers with those that wait behind it."""
-        frames = [self._sent(entry)]
-        size = len(frames[0])
-        while self._answers and size < MOST_JOINED and self._queue and isinstance(self._queue[0].data, bytes):
-            frames.append(self._sent(self._queue.popleft()))
-            size += len(frames[-1])
+        frames, size = [frame], len(frame)
+        while self._answers and self._queue:
+            data = self._queue[0].data
+            if isinstance(data, str) or size + len(data) > MOST_JOINED:
+                break
+            frames.append(data)
+            size += len(data)
+            self._queue.popleft()
+        self._ticks -= size
         self._on_way += 1
-        return frames[0] if len(frames) == 1 else SEVERAL + joined(frames)
-
-    def _sent(self, entry: Waiting) -> bytes:
-        """What a page gets of a frame: all of it, or, if the page is late, its last tick, except around an event."""
-        assert isinstance(entry.data, bytes)
-        self._ticks -= len(entry.data)
-        self._whole -= 1
-        near = self._whole >= 0 or any(one.kind == "event" for one in islice(self._queue, AROUND_EVENT))
-        if near or not self._answers or self._clock() - entry.since < LATE_S:
-            return entry.data
-        self.dropped += 1
-        return last_of(entry.data)
+        return frame if len(frames) == 1 else SEVERAL + joined(frames)
 
     def close(self, reason: str) -> None:
         self.closed = self.closed or reason

@@ -24,7 +24,7 @@ REFUSED_A_SECOND, REFUSED_AT_ONCE = 100, 300
 # Counts.
 MOST_VIEWERS = 32  # pages
 MOST_TICK_BYTES = 16_000_000  # that wait for one page; then all are dropped, which leaves one gap
-MOST_JOINED = 64_000  # bytes of ticks in one message, so that the next has what is new; a frame is never cut
+MOST_JOINED = 1_000_000  # bytes of ticks in one message; a longer one would take too long on a slow link
 MOST_ON_WAY = 2  # messages with ticks to a page that says when it has taken one
 MOST_MESSAGES = 8_000_000  # bytes of messages that wait for one page; they are never dropped, so the page is closed
 MOST_KNOWN = 128  # connections with the token: each page has one socket and at most six others
@@ -36,7 +36,6 @@ FILES_WANTED = 1024  # open files; no more, since a maker's driver that calls se
 FILES_KEPT = 192  # of these, for the device, recordings, exports and what Python and its libraries open
 
 # Times, seconds.
-LATE_S = 0.5  # that ticks wait for a page that says when it has taken some; then it gets fewer of them
 STRANGER_S = 10.0  # for a whole request with the token to arrive; then the connection is ended
 IDLE_S = 15.0  # between two requests of a connection that has shown the token
 CLOSE_S = 2.0  # for the other end to answer a close, and to read what was sent before it

@@ -37,7 +37,7 @@ export function gather(
   });
 }
 
-/** As `gather`, for the time, s; NaN for ticks that the page has not got. */
+/** As `gather`, for the time, s. */
 export function gatherTime(
   history: History,
   first: number,
@@ -47,8 +47,7 @@ export function gatherTime(
   out: Float32Array,
 ): void {
   eachPart(history, first, end, (slot, n, at) => {
-    for (let i = 0; i < n; i++)
-      out[at + i] = history.has(slot + i) ? bias + gain * history.time[slot + i]! : Number.NaN;
+    for (let i = 0; i < n; i++) out[at + i] = bias + gain * history.time[slot + i]!;
   });
 }
 

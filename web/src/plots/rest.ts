@@ -32,7 +32,6 @@ export class Rest {
   }
 
   private differs(history: History, tick: number): boolean {
-    if (!history.has(tick)) return false;
     const state = history.byteColumn("state")[history.slot(tick)]!;
     if (state === this.state && COLUMNS.every((name, k) => this.same(history, name, k, tick))) return false;
     this.state = state;

@@ -36,9 +36,7 @@ export class Trail {
     let at = Math.max(history.first, Math.floor(tick / step) * step - (POINTS - 2) * step);
     for (let i = 0; i < POINTS; i++) {
       const here = 3 * history.slot(Math.min(at, tick));
-      if (i === 0 || history.has(Math.min(at, tick)))
-        for (let axis = 0; axis < 3; axis++) out[3 * i + axis] = tips[here + axis]! * MM;
-      else out.copyWithin(3 * i, 3 * i - 3, 3 * i);
+      for (let axis = 0; axis < 3; axis++) out[3 * i + axis] = tips[here + axis]! * MM;
       at += step;
     }
     this.positions.needsUpdate = true;

@@ -9,7 +9,6 @@ const OUTSIDE = codeOf("phase", "outside");
 const MM = 1e3;
 export const ABOVE_MM = 3; // in front of the skin there is nothing to feel
 const MOST = 20_000; // points; with more, the steps become larger
-const MOST_MISSING = 160; // ticks, over which the curve goes on: a tenth of a second
 const FINEST = { depth: 0.01, force: 0.002 } as const; // mm, N
 
 /** A pop at its place on the curve. */
@@ -53,7 +52,6 @@ export class Attempt {
   private run = -1; // the history's generation
   private seen = new WeakSet<MembraneEvent>();
   private step = 1; // in units of FINEST
-  private missing = 0; // ticks that the page was too slow for, just before
   private waits = false; // until the needle is out of the tissue
   private last: readonly [depth: number, force: number] = [Number.NaN, Number.NaN]; // in steps
 
@@ -97,11 +95,6 @@ export class Attempt {
   }
 
   private take(history: History, scene: SceneView, tick: number): void {
-    if (!history.has(tick)) {
-      if (++this.missing === MOST_MISSING) this.path.gap();
-      return;
-    }
-    this.missing = 0;
     if (this.waits && history.byteRow("phase", tick).some((phase) => phase !== OUTSIDE)) return;
     this.waits = false;
     const { depth, force } = feltAt(history, scene, tick);
@@ -142,9 +135,8 @@ export class Attempt {
     if (tick >= history.end) return; // its tick comes later
     this.seen.add(event);
     if (what !== "pop" || tick < history.first || this.waits) return;
-    if (!history.has(tick)) return;
     const { depth } = feltAt(history, scene, tick);
-    const { force } = feltAt(history, scene, history.has(tick - 1) ? Math.max(history.first, tick - 1) : tick);
+    const { force } = feltAt(history, scene, Math.max(history.first, tick - 1));
     this.pops = [...this.pops, { event, depth, force }];
   }
 }

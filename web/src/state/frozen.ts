@@ -27,7 +27,6 @@ export function copiedHistory(history: History): History {
     copy.push(batchOf(history, tick, n));
     tick += n;
   }
-  copy.thinned = history.thinned;
   return copy;
 }
 

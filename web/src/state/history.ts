@@ -1,6 +1,5 @@
 import type { ByteColumn, FloatColumn, TickBatch } from "../wire/ticks.ts";
 import { BYTE_COLUMNS, FLOAT_COLUMNS, rowWidth } from "../wire/ticks.ts";
-import { gapBefore } from "./gap.ts";
 
 const isKept = (name: FloatColumn): name is Exclude<FloatColumn, "time"> => name !== "time";
 const KEPT = [...FLOAT_COLUMNS.filter(isKept), "other_force" as const];
@@ -16,8 +15,6 @@ export class History {
   generation = 0;
   membranes = 0;
   lost = 0;
-  /** The page was too slow for some ticks: they have a time, and no values. */
-  thinned = false;
   time = new Float64Array(0);
   private floats = new Map<FloatColumn, Float32Array>();
   private bytes = new Map<ByteColumn, Uint8Array>();
@@ -55,10 +52,6 @@ export class History {
     const start = this.slot(tick) * width;
     return this.byteColumn(name).subarray(start, start + width);
   }
-  /** Whether the page got the values of a tick. Its first and last tick have some. */
-  has(tick: number): boolean {
-    return !this.thinned || !Number.isNaN(this.column("tip")[3 * this.slot(tick)]!);
-  }
   timeOf(tick: number): number {
     return this.time[this.slot(tick)] ?? Number.NaN;
   }
@@ -67,7 +60,6 @@ export class History {
     this.first = first;
     this.end = first;
     this.lost = 0;
-    this.thinned = false;
     this.generation += 1;
     if (membranes === this.membranes && this.time.length) return;
     this.membranes = membranes;
@@ -78,12 +70,8 @@ export class History {
 
   push(batch: TickBatch): void {
     if (batch.membranes !== this.membranes || this.time.length === 0) this.clear(batch.membranes, batch.firstTick);
-    const missing = batch.firstTick - this.end;
-    if (missing > 0 && missing < this.capacity && this.length > 0) {
-      const period = (batch.firstTime - this.timeOf(this.end - 1)) / (missing + 1);
-      this.push(gapBefore(batch, this.end, period));
-      this.thinned = true;
-    } else if (missing !== 0) {
+    if (batch.firstTick !== this.end) {
+      // The page was too slow: the history starts again.
       this.first = batch.firstTick;
       this.end = batch.firstTick;
     }

@@ -54,9 +54,7 @@ export class Source {
   private inside(tick: number | null): number | null {
     const { first, end } = this.history;
     if (end === first) return null;
-    let at = tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
-    while (at > first && !this.history.has(at)) at--;
-    return at;
+    return tick === null ? end - 1 : Math.min(Math.max(tick, first), end - 1);
   }
 }
 

@@ -77,24 +77,6 @@ it("a pop stands where the tip was, with the force before it, also if its event 
   expect(pop?.force).toBeCloseTo(0.29, 4);
 });
 
-it("a slow page loses no pop and no part of the curve: it goes on over ticks that did not come", () => {
-  const made = run(1000);
-  ticks(made, down(0, 0.5), (mm) => mm);
-  made.source.events.value = [{ kind: "event", what: "pop", membrane: 0, tick: 30, drop: 0.3 } as MembraneEvent];
-  made.source.history.push(
-    batch(made.source.history.end + 26, 1, 1, {
-      tip: () => [0, 0.001 - 0.77e-3, 0],
-      axis: () => [0, -1, 0],
-      force: () => [0, 0.4, 0],
-      phase: () => [STICKING],
-    }),
-  );
-  expect(made.attempt.follow()).toBe(true);
-  expect(made.attempt.pops.map(({ depth }) => depth)).toEqual([expect.closeTo(0.3, 4)]);
-  expect(points(made.attempt).some(([depth]) => Number.isNaN(depth))).toBe(false);
-  expect(points(made.attempt).at(-1)![0]).toBeCloseTo(0.77, 4);
-});
-
 it("again begins anew, once the needle is out; and so does a new run", () => {
   const made = run(1000);
   ticks(made, down(0, 1), () => 0.3);

@@ -121,12 +121,3 @@ def decode_ticks(frame: bytes) -> Frame:
     if at != len(frame):
         raise FrameError(f"{len(frame) - at} bytes follow its end")
     return Frame(tick, time, run, lost, m, Ticks(columns))
-
-
-def last_of(frame: bytes) -> bytes:
-    """A frame with the last tick of this one."""
-    whole = decode_ticks(frame)
-    last = whole.ticks[-1:]
-    time = whole.first_time + last.time.astype(float)
-    last = last.replace(tick=np.array([whole.first_tick + len(whole) - 1], np.uint64), time=time)
-    return encode_ticks(last, whole.run, whole.lost, last.get(OTHER))

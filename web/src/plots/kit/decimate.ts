@@ -1,11 +1,9 @@
 import type { Polyline } from "./polyline.ts";
 
-const BRIDGED = 160; // points
-
 /**
  * Decimates the line through `xs`, `ys` (pixels) for drawing. Consecutive points in one pixel column become at most
  * four: the first, the lowest, the highest and the last, in their order. The picture is the same to the pixel, so a
- * spike of one tick keeps its full height. A y that is NaN is a gap; a few points whose x is NaN are left out.
+ * spike of one tick keeps its full height. NaN is a gap.
  */
 export function decimate(xs: Float32Array, ys: Float32Array, from: number, to: number, out: Polyline): void {
   let first = -1;
@@ -13,7 +11,6 @@ export function decimate(xs: Float32Array, ys: Float32Array, from: number, to: n
   let low = -1;
   let high = -1;
   let column = 0;
-  let left = 0; // points that were left out
   const flush = (): void => {
     if (first < 0) return;
     out.add(xs[first]!, ys[first]!);
@@ -27,13 +24,11 @@ export function decimate(xs: Float32Array, ys: Float32Array, from: number, to: n
   for (let i = from; i < to; i++) {
     const x = xs[i]!;
     const y = ys[i]!;
-    if (Number.isNaN(x) && left++ < BRIDGED) continue;
     if (Number.isNaN(x) || Number.isNaN(y)) {
       flush();
       out.gap();
       continue;
     }
-    left = 0;
     const here = Math.floor(x);
     if (first >= 0 && here === column) {
       last = i;

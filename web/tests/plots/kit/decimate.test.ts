@@ -48,12 +48,6 @@ describe("lines through pixel columns", () => {
     }
   });
 
-  it("the line goes on over a few points that did not come, and not over many", () => {
-    const [whole, few, many] = [[1, NaN_, 3], [1, ...Array(40).fill(NaN_), 3], [1, ...Array(300).fill(NaN_), 3]];
-    for (const xs of [whole, few]) expect(through(xs!, xs!)).toEqual([[1, 1], [3, 3]]);
-    expect(through(many!, many!)).toEqual([[1, 1], [NaN_, NaN_], [3, 3]]);
-  }); // biome-ignore format: tables
-
   it("what does not exist is a gap, one for any number of ticks", () => {
     expect(through([1, 2, 3, 4, 5], [1, NaN_, NaN_, 4, 5])).toEqual([
       [1, 1],
