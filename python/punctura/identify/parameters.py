@@ -40,12 +40,12 @@ _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
 
 @dataclass(frozen=True)
 class Parameters:
-    """The values of all parameters, SI. A row of membranes has those of MEMBRANE, the others as COUPLING, NUISANCE."""
+    """The values of all parameters, SI."""
 
     needle: Needle  # as it was given
-    membranes: Array
-    coupling: Array
-    nuisance: Array = field(default_factory=lambda: np.zeros(len(NUISANCE)))
+    membranes: Array  # a row for each membrane, with the values of MEMBRANE
+    coupling: Array  # as COUPLING
+    nuisance: Array = field(default_factory=lambda: np.zeros(len(NUISANCE)))  # as NUISANCE
 
     def get(self, name: str) -> float:
         """The value of `membrane[0].friction`, `tissue.friction` (the first membrane's), `coupling_stiffness` ..."""

@@ -23,14 +23,20 @@
 
 namespace punctura {
 
-/// The parameters of one membrane of a trace, in this order: the depth of contact, then the numbers of Membrane and
-/// Tissue.
-inline constexpr auto trace_membrane_fields = [] {
+namespace detail {
+
+constexpr auto fields_of_a_membrane() {
   std::array<Field, 1 + std::size(membrane_fields) + tissue_fields.size()> fields{{{"surface", "", "m"}}};
   std::copy(tissue_fields.begin(), tissue_fields.end(),
             std::copy(std::begin(membrane_fields), std::end(membrane_fields), fields.begin() + 1));
   return fields;
-}();
+}
+
+}  // namespace detail
+
+/// The parameters of one membrane of a trace, in this order: the depth of contact, then the numbers of Membrane and
+/// Tissue.
+inline constexpr auto trace_membrane_fields = detail::fields_of_a_membrane();
 /// The parameters of the coupling, which all membranes of a trace share, in this order.
 inline constexpr std::array<Field, 6> trace_coupling_fields{{{"coupling_stiffness", "K", "N/m", greater_than_0},
                                                              {"coupling_damping", "B", "N s/m", at_least_0},
