@@ -121,6 +121,7 @@ def test_a_key_a_trigger_and_the_wheel_push_the_plunger_and_its_force_is_in_plot
     turn_with_alt(shown, force)
     expect(force).to_have_text(re.compile(r"^0[.][0-4]"))  # the thumb lets go when the wheel stops
     plot = shown.locator(".time-plots")
+    plot.get_by_text("Curves").click()
     expect(plot.get_by_role("button", name="thumb, model force")).to_have_attribute("aria-pressed", "true")
     plot.get_by_text("Save").click()
     kept = columns(saved(shown, plot.get_by_role("button", name="CSV"), tmp_path))

@@ -10,9 +10,11 @@ from playwright.sync_api import expect
 
 def test_a_parameter_is_varied_and_saved_and_the_moment_and_the_curves_are_chosen(page, tmp_path):
     ready(page)
+    page.locator(".time-plots").get_by_text("Curves").click()
     limit = page.locator(".time-plots").get_by_role("button", name="force limit")
     expect(limit).to_have_attribute("aria-pressed", "false")
     limit.click()
+    page.locator(".force-depth").get_by_text("Curves").click()
     depth = page.locator(".force-depth").get_by_role("button", name="force limit")
     expect(depth).to_have_attribute("aria-pressed", "true")
 

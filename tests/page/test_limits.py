@@ -23,7 +23,7 @@ def test_the_header_names_the_limit_that_cuts_the_force(browser: Browser, tmp_pa
     with StudioProcess(tmp_path, "k06-fig10", more=more) as studio, opened(browser, studio.url) as page:
         ready(page)
         tab(page, "Hand").get_by_role("button", name="Start strokes").click()
-        state = page.locator(".servo-state")
+        state = page.locator(".header .servo-state")
         expect(state).to_contain_text("Force cut: long-run limit")
         expect(state.locator(".figures")).to_contain_text(" N")
         loop = tab(page, "Health").locator(".health-limits")
