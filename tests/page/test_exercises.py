@@ -71,10 +71,10 @@ def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page
             push(page, "ArrowUp", 1)
         else:
             push(page, "Shift+ArrowDown" if words.startswith("Reach") else "ArrowDown", 1)
-    expect(page.get_by_role("dialog")).to_contain_text("passed")
-    expect(page.get_by_role("dialog")).not_to_contain_text("not passed")
-
     dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text("passed")
+    expect(dialog).not_to_contain_text("not passed")
+    passed = dialog.get_by_text("✓ passed").count()  # a busy computer loses readings, and then nothing is judged
     dialog.get_by_role("button", name="Use as expert").click()
     expect(dialog.get_by_role("button", name="This is now the expert")).to_be_visible()
     dialog.get_by_role("button", name="Try again").click()
@@ -85,7 +85,7 @@ def test_staying_in_the_vein_passes_and_the_next_attempt_is_shown_beside_it(page
         if dialog.count():
             break
     expect(dialog.locator(".trace-place")).to_contain_text("Dashed: the expert")
-    passed = 2 - (dialog.get_by_text("not passed").count() > 0)  # a slow computer may pass it on the way
+    passed += dialog.get_by_text("✓ passed").count()  # a slow computer may pass it on the way
     dialog.get_by_role("button", name="Replay").click()
     expect(page.get_by_role("group", name="Replay")).to_be_visible()
     expect(page.locator(".force-depth .plot-legend")).to_contain_text("expert")
