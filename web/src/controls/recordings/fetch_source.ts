@@ -1,4 +1,3 @@
-import { gapBefore } from "../../state/gap.ts";
 import { Source } from "../../state/source.ts";
 import { type Api, recordingPath } from "../../wire/api.ts";
 import { FrameSplitter } from "../../wire/length_prefixed.ts";
@@ -72,4 +71,19 @@ function take(source: Source, batch: TickBatch, period: number): void {
 function tickBytes(membranes: number): number {
   const numbers = FLOAT_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);
   return 4 * numbers + BYTE_COLUMNS.reduce((sum, name) => sum + rowWidth(name, membranes), 0);
+}
+
+/** The lost ticks of a recording before `next`: times but no values, so that the gap is visible. */
+function gapBefore(next: TickBatch, from: number, period: number): TickBatch {
+  const count = next.firstTick - from;
+  const floats = Object.fromEntries(
+    FLOAT_COLUMNS.map((name) => [name, new Float32Array(count * rowWidth(name, next.membranes)).fill(Number.NaN)]),
+  ) as TickBatch["floats"];
+  for (let i = 0; i < count; i++) floats.time[i] = i * period;
+  const bytes = Object.fromEntries(
+    BYTE_COLUMNS.map((name) => [name, new Uint8Array(count * rowWidth(name, next.membranes))]),
+  ) as TickBatch["bytes"];
+  const { run, lost, membranes } = next;
+  const firstTime = next.firstTime - count * period;
+  return { firstTick: from, firstTime, run, lost, count, membranes, floats, bytes, otherForce: null };
 }
