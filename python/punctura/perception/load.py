@@ -13,7 +13,7 @@ from punctura import Scene
 from punctura._core import ForceLimits
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
-from punctura.perception.protocol import ANSWERS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
+from punctura.perception.protocol import ANSWERS, KEYS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
 from punctura.perception.stimulus import QUANTITIES, built, cut_by_limits, simulated, solved
 from punctura.perception.words import problems_of
 from punctura.ready_protocols import protocol_files
@@ -44,7 +44,7 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
     problems += [
         *_answers(file),
-        *problems_of(file.words),
+        *problems_of(file.words, KEYS),
         *(Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad),
     ]
     if scene is None or problems:

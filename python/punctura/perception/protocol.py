@@ -28,7 +28,7 @@ ANSWERS: dict[str, tuple[str, ...]] = {
     "adjustment": ("less", "more", "equal"),
 }
 ONE_INTERVAL = ("yes_no", "rating", "magnitude")
-_KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n", "less": "-", "more": "+", "equal": "="}
+KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n", "less": "-", "more": "+", "equal": "="}
 
 
 class StimulusTable(Table):
@@ -152,7 +152,7 @@ class Protocol:
     @property
     def answers(self) -> dict[str, str]:
         """The key of each answer, in the order of the task."""
-        return {name: self.file.answers.get(name, _KEYS.get(name, name)) for name in ANSWERS[self.file.task]}
+        return {name: self.file.answers.get(name, KEYS.get(name, name)) for name in ANSWERS[self.file.task]}
 
     @property
     def in_newtons(self) -> bool:

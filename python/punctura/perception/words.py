@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from string import Formatter
 
 from punctura.errors import Problem
@@ -42,10 +42,7 @@ class WordsTable(Table):
     equal: Text = "equal"
 
 
-ANSWERS = ("yes", "no", "first", "second", "third", "less", "more", "equal")
-
-
-def problems_of(words: WordsTable) -> Iterator[Problem]:
+def problems_of(words: WordsTable, answers: Iterable[str]) -> Iterator[Problem]:
     """An empty text, braces that nothing fills in, and two answers that read the same."""
     for key, field in WordsTable.model_fields.items():
         text, filled = getattr(words, key), _braces(field.default)
@@ -55,7 +52,7 @@ def problems_of(words: WordsTable) -> Iterator[Problem]:
         elif not _braces(text) <= filled:
             yield Problem(f"words.{key}", text, f"may have {allowed}, and no other text in braces")
     read: dict[str, str] = {}
-    for key in ANSWERS:
+    for key in answers:
         text = getattr(words, key).strip()
         if text in read:
             yield Problem(f"words.{key}", text, f"is what {read[text]} reads, too; give each answer its own")
