@@ -13,6 +13,7 @@ from sources import CPP_SUFFIXES, sources
 
 PACKAGE = "python/punctura/"
 PAGE = "web/src/"
+_MADE = PAGE + "wire/messages.ts"  # by npm run types; git ignores it
 _COMPILED = "punctura._core"
 _INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # import "./a.ts"; import x from "./a.ts"; export { x } from "./a.ts"; import("./a.ts"); new URL("./a.ts", ...)
@@ -42,6 +43,7 @@ def page_imports(root: Path) -> Iterator[Import]:
     """All imports in the page's files, including type and dynamic imports."""
     files = [path for path in sources(root, (".ts", ".json"), generated=True) if path.startswith(PAGE)]
     code = [path for path in files if path.endswith(".ts")]
+    files.append(_MADE)
     for path, text in _texts(root, code):
         for line, name in _matches(_PAGE_IMPORT, text):
             target = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))

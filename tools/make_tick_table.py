@@ -1,15 +1,17 @@
-"""Generates files from the core's table of tick fields (core/punctura/servo/tick_table.hpp).
+"""Generates files from the core's table of tick fields (core/punctura/servo/tick_table.hpp) and the limits' words.
 
-python tools/make_tick_table.py          writes docs/tick.md and web/src/wire/tick_table.ts
+python tools/make_tick_table.py          writes docs/tick.md, and tick_table.ts and limit_words.json in web/src/wire
 python tools/make_tick_table.py --check  fails if these files are out of date
 """
 
 from __future__ import annotations
 
+import json
 import sys
 
 from generated import write
 from punctura._core import TickField
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 from punctura.ticks import FIELDS
 
 PAGE = """# The fields of a tick
@@ -94,7 +96,12 @@ def module() -> str:
 
 
 def main(argv: list[str] | None = None) -> int:
-    return write(__file__, __doc__, {"docs/tick.md": page(), "web/src/wire/tick_table.ts": module()}, argv)
+    files = {
+        "docs/tick.md": page(),
+        "web/src/wire/tick_table.ts": module(),
+        "web/src/wire/limit_words.json": json.dumps({"words": LIMIT_WORDS, "cuts": CUTS}, indent=2) + "\n",
+    }
+    return write(__file__, __doc__, files, argv)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 CPP_SUFFIXES = (".hpp", ".cpp", ".h", ".c")
-# npm run types; tools/make_tick_table.py
-GENERATED = ("web/src/wire/messages.ts", "web/src/wire/tick_table.ts")
+GENERATED = ("web/src/wire/tick_table.ts",)  # by tools/make_tick_table.py
 SOURCE_SUFFIXES = (*CPP_SUFFIXES, ".py", ".pyi", ".ts", ".sh", ".cmake")
 
 

@@ -231,9 +231,9 @@ python_tests() {
   python -m pytest --durations=15 "$@" ${but[@]+"${but[@]}"}
 }
 
-# The studio's page: types, lint, unused exports, tests, message types in agreement with the server, and size.
+# The studio's page: types, of which those of the server's messages are made first; lint, unused exports, tests, size.
 step_web() {
-  local types="src/wire/messages.ts src/wire/limit_words.json tests/controls/support/schema.json" file code=0
+  local code=0
   export NO_COLOR=1
   python tools/build_backend/studio_page.py && python tools/build_backend/studio_page.py --modules || return
   python tools/check_bundle.py || code=1
@@ -241,14 +241,6 @@ step_web() {
   npm run -s check || code=1
   npm run -s lint || code=1
   npm run -s unused || code=1
-  for file in $types; do cp "$file" "$root/build/${file##*/}"; done
-  npm run -s types >/dev/null || code=1
-  for file in $types; do
-    cmp -s "$file" "$root/build/${file##*/}" && continue
-    diff "$root/build/${file##*/}" "$file" || true
-    cp "$root/build/${file##*/}" "$file"
-    echo "web/$file does not match the Python package. Run: cd web && npm run types" && code=1
-  done
   # Modules are imported once for all files, which takes a third of the time, but for tests that need their own.
   local alone="tests/frames.test.ts tests/panel.test.ts tests/hand/awake.test.ts tests/plots/kit/svg_pen.test.ts"
   npm test -- --pool=threads $alone || code=1

@@ -78,11 +78,13 @@ def test_the_page_is_built_once_and_again_when_its_sources_change(tree: Path, pa
     assert log.read_text().splitlines()[2:] == ["run build"], "the modules were there already"
 
 
-def test_tests_and_modules_are_no_sources_of_the_page(tree: Path, path: Path) -> None:
+def test_tests_modules_and_types_are_no_sources_of_the_page(tree: Path, path: Path) -> None:
     provide(path)
     studio_page.build(tree)
     (tree / "web/tests/a.test.ts").write_text("other")
     (tree / "web/node_modules/new").write_text("other")
+    (tree / "web/src/wire").mkdir()
+    (tree / "web/src/wire/messages.ts").write_text("made by npm run types")
     assert studio_page.is_built(tree)
     (tree / "web/package-lock.json").write_text("other")
     assert not studio_page.is_built(tree)
