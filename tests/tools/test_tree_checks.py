@@ -243,7 +243,6 @@ def test_a_web_address_a_generated_file_and_a_document_may_have_longer_lines(che
     root = plant(
         tmp_path,
         a_dot_py=f"# https://example.org/{long}",
-        web__src__wire__messages_dot_ts=long,
         web__src__wire__tick_table_dot_ts=long,
         docs__a_dot_md=long,
     )
