@@ -2,7 +2,6 @@
 
     python tools/soak_sockets.py                            # all storms, 20 s each
     python tools/soak_sockets.py silent --connections 1200 --seconds 60
-    python tools/soak_sockets.py --server hypercorn         # another server: docs/decisions/server.md
 
 Prints for each storm the studio's memory, the number of lost ticks, the response time of "pause", the number of
 answered requests with the token, and the time that a new page needs to connect. Passes if no tick is lost, if every
@@ -177,10 +176,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=20.0, help="duration of each storm, up to 600")
     parser.add_argument("--connections", type=int, default=220, help="number for a named storm, up to 5000")
     parser.add_argument("--with-token", action="store_true", help="for a named storm")
-    parser.add_argument("--server", help="one of other_servers.py, in place of the studio's own")
     options = parser.parse_args()
-    if options.server:
-        StudioProcess.program = (sys.executable, str(Path(__file__).with_name("other_servers.py")), options.server)
     seconds, connections = min(600.0, max(2.0, options.seconds)), min(5000, max(1, options.connections))
     chosen = [(options.storm, options.storm, options.with_token, connections)] if options.storm else ALL
     good = True

@@ -37,14 +37,13 @@ class StudioProcess:
         port: int = 0,
         token: str = "",
         open_files: int = 0,
-        terminal: int | None = None,
         more: Sequence[str] = (),
         verb: Sequence[str] = ("run",),
     ) -> None:
         """scene: may be empty. page: folder to serve in place of the studio's page. token: default: a new one.
 
-        open_files: limit of the studio's open files, on POSIX; 0 for that of this process. terminal: descriptor for its
-        standard error; log() is then empty. more: further options. verb: another one that serves a page.
+        open_files: limit of the studio's open files, on POSIX; 0 for that of this process. more: further options.
+        verb: another one that serves a page.
         """
         self.recordings = folder / "recordings"
         command = [*self.program, *verb, *([scene] if scene else [])]
@@ -57,7 +56,7 @@ class StudioProcess:
         self._process = subprocess.Popen(
             command,
             stdout=self._out,
-            stderr=self._errors if terminal is None else terminal,
+            stderr=self._errors,
             env={**os.environ, **home},
             cwd=folder,
             preexec_fn=(lambda: _prepare(open_files)) if os.name == "posix" else None,
