@@ -63,7 +63,7 @@ def whole_file(path: Path, replace: bool = True, private: bool = False) -> Itera
         yield place
         if replace and path.is_file():
             os.chmod(place, stat.S_IMODE(path.stat().st_mode))
-        _sync(hidden) if descriptor is None else os.fsync(descriptor)
+        sync(hidden) if descriptor is None else os.fsync(descriptor)
         if descriptor is not None and not give_name(descriptor, hidden):
             raise OSError(errno.EOPNOTSUPP, os.strerror(errno.EOPNOTSUPP), str(path))
         if replace:
@@ -126,9 +126,11 @@ def give_name(descriptor: int, path: Path) -> bool:
     return True
 
 
-def _sync(file: Path) -> None:
-    descriptor = os.open(file, os.O_RDWR)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+def sync(path: Path) -> None:
+    """Waits until a file, or the names of the files in a folder, are on the disk. Windows cannot wait for names."""
+    if not (folder := path.is_dir()) or os.name != "nt":
+        descriptor = os.open(path, os.O_RDONLY if folder else os.O_RDWR)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

@@ -203,8 +203,7 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
     if shape.one_sided:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
-        quarters = (shape.level(grid.place + sign * QUARTER * grid.width) for sign in (1, -1))
-        result.jnd = _estimate(belief, (next(quarters) - next(quarters)) / 2)
+        result.jnd = _estimate(belief, QUARTER * grid.width)
         if belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
             result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
     result.weber = _weber(result.jnd, found.reference)
@@ -261,12 +260,9 @@ def _too_little(protocol: Protocol, found: Answers) -> str:
 
 def _slope(x: Array, y: Array) -> Estimate:
     """Of the straight line of least squares, with the interval of Student's t."""
-    away = x - x.mean()
-    slope = float(away @ y / (away @ away))
-    rest = y - y.mean() - slope * away
-    error = float(np.sqrt(rest @ rest / (len(x) - 2) / (away @ away)))
-    half = float(stdtrit(len(x) - 2, SHARES[1])) * error
-    return Estimate(slope, slope - half, slope + half)
+    (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
+    half = float(stdtrit(len(x) - 2, SHARES[1]) * np.sqrt(covariance[0, 0]))
+    return Estimate(float(slope), float(slope) - half, float(slope) + half)
 
 
 def _settings(protocol: Protocol, found: Answers) -> tuple[Estimate, Estimate]:

@@ -10,10 +10,9 @@ import re
 from collections.abc import Sequence
 from datetime import datetime, timezone
 from pathlib import Path
-from types import TracebackType
 
 from punctura import PuncturaError, __version__
-from punctura.files.whole_file import private, private_folder
+from punctura.files.whole_file import private, private_folder, sync
 from punctura.perception.course import Course, Trial, line_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.stimulus import Felt
@@ -77,10 +76,8 @@ class Session:
                 raise SessionError(f"{self.path}: another program runs this participant's session")
             lines = self._whole_lines()
             if not lines:
-                number = _free_number(before - {self.path}, simulated)
-                header = _header(protocol, participant, number, simulated)
-                self._append(header)
-                lines = [header]
+                lines = [_header(protocol, participant, _free_number(before - {self.path}, simulated), simulated)]
+                self._append(lines[0])
             self.header = lines[0]
             check_header(self.header, protocol, self.path)
             self.course = Course(protocol, int(self.header["number"]))
@@ -97,9 +94,7 @@ class Session:
     def __enter__(self) -> Session:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         os.close(self._descriptor)
 
     def next(self) -> Trial | None:
@@ -107,7 +102,12 @@ class Session:
         return self.course.next()
 
     def add(self, trial: Trial, answer: str, felt: Sequence[Felt], recordings: Sequence[str] = ()) -> None:
-        """Writes the answer to `next` to the disk, and only then goes on. Raises DiskFullError, OSError."""
+        """Writes the answer to `next` to the disk, and only then goes on. Raises DiskFullError, OSError.
+
+        What a loss of power must not take, too: the recordings, which are finished, and the names of all files.
+        """
+        for file in (*(self.path.parent / name for name in recordings), self.path.parent):
+            sync(file)
         self._append({**line_of(trial, answer, felt), "recordings": list(recordings), "time": _now()})
         self.course.add(trial, answer)
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
-from string import Formatter
 
 from punctura.errors import Problem
 from punctura.files.fields import Text
@@ -45,26 +45,17 @@ class WordsTable(Table):
 def problems_of(words: WordsTable, answers: Iterable[str]) -> Iterator[Problem]:
     """An empty text, braces that nothing fills in, and two answers that read the same."""
     for key, field in WordsTable.model_fields.items():
-        text, filled = getattr(words, key), _braces(field.default)
-        allowed = " and ".join(f"{{{name}}}" for name in sorted(filled)) or "no braces"
+        text, filled = getattr(words, key), re.findall(r"{(\w+)}", field.default)
+        try:
+            text.format(**dict.fromkeys(filled, ""))
+        except (LookupError, ValueError, AttributeError):
+            allowed = " and ".join(f"{{{name}}}" for name in filled) or "no braces"
+            yield Problem(f"words.{key}", text, f"may have {allowed}, and no other text in braces")
         if not text.strip():
             yield Problem(f"words.{key}", text, "must not be empty: leave it out for English")
-        elif not _braces(text) <= filled:
-            yield Problem(f"words.{key}", text, f"may have {allowed}, and no other text in braces")
     read: dict[str, str] = {}
     for key in answers:
         text = getattr(words, key).strip()
         if text in read:
             yield Problem(f"words.{key}", text, f"is what {read[text]} reads, too; give each answer its own")
         read.setdefault(text, key)
-
-
-def _braces(text: str) -> set[str]:
-    try:
-        return {
-            f"{name}{'!' if convert or how else ''}"
-            for _, name, how, convert in Formatter().parse(text)
-            if name is not None
-        }
-    except ValueError:  # a brace alone
-        return {"{"}

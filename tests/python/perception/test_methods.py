@@ -1,64 +1,58 @@
-"""Which level comes next: constant stimuli, the weighted up-down staircase, QUEST+."""
+"""Which level comes next: constant stimuli, the weighted up-down staircase, QUEST+, adjustment."""
 
 from __future__ import annotations
 
 from collections import Counter
-from pathlib import Path
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from protocols import COMPARES, RIGHT, YES, written
-from punctura.perception import Protocol, load_protocol
-from punctura.perception.course import Course
+from protocols import ADJUST, COMPARES, RIGHT, YES, written
+from punctura.perception import Observer, Protocol, Simulation, load_protocol
+from punctura.perception.analysis import person
+from punctura.perception.course import Course, Trial
 from punctura.perception.methods import Quest, Staircase
 from punctura.perception.psychometric import QUEST, Grid
+from punctura.perception.report import words
 
 
 @pytest.fixture(scope="module")
-def right(tmp_path_factory: pytest.TempPathFactory) -> Protocol:
-    return load_protocol(written(tmp_path_factory.mktemp("right"), RIGHT))
+def load(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Protocol]:
+    return lambda text: load_protocol(written(tmp_path_factory.mktemp("protocol"), text))
 
 
-def test_constant_stimuli_show_each_level_as_often_in_each_block(tmp_path: Path) -> None:
-    protocol = load_protocol(written(tmp_path, COMPARES))
-    course, seen = Course(protocol, 0), Counter()
+def trials(protocol: Protocol, participant: int, answer: str) -> list[Trial]:
+    course, found = Course(protocol, participant), []
     while (trial := course.next()) is not None:
-        seen[trial.block, trial.level] += 1
-        course.add(trial, "first")
-    assert seen == {(block, level): 10 for block in range(2) for level in range(6)}
+        found.append(trial)
+        course.add(trial, answer)
+    return found
 
 
-def test_catch_and_practice_trials_are_where_they_belong(tmp_path: Path) -> None:
-    protocol = load_protocol(written(tmp_path, YES))
-    course, kinds = Course(protocol, 0), []
-    while (trial := course.next()) is not None:
-        kinds.append(trial.kind)
-        if trial.kind == "practice":
-            assert trial.level == 0  # the thinnest wall pops most
-        course.add(trial, "no")
-    assert kinds[:2] == ["practice"] * 2 and Counter(kinds) == {"practice": 2, "trial": 120, "catch": 30}
-    assert kinds[2:32] != sorted(kinds[2:32])  # among the others
-
-
-def test_the_interval_is_balanced_over_a_group_and_over_each_level(tmp_path: Path) -> None:
-    protocol = load_protocol(written(tmp_path, COMPARES))
-    orders = []
-    for participant in range(4):
-        course, order = Course(protocol, participant), []
-        while (trial := course.next()) is not None:
-            order.append((trial.level, trial.position))
-            course.add(trial, "first")
-        orders.append(order)
-    mirrored = [(level, 1 - position) for level, position in orders[0]]
-    assert orders[1] == mirrored and orders[2] != orders[0]
+def test_levels_and_intervals_are_balanced_and_of_two_people_mirrored(load: Callable[[str], Protocol]) -> None:
+    protocol = load(COMPARES)
+    found = trials(protocol, 0, "first")
+    assert Counter((one.block, one.level) for one in found) == dict.fromkeys(np.ndindex(2, 6), 10)
+    orders = [[(one.level, one.position) for one in trials(protocol, i, "first")] for i in range(3)]
+    assert orders[1] == [(level, 1 - position) for level, position in orders[0]] and orders[2] != orders[0]
     assert set(Counter(orders[0]).values()) == {10}  # of 20 trials a level
 
 
-def test_a_staircase_stays_where_three_of_four_answers_are_right(right: Protocol) -> None:
+def test_catch_and_practice_trials_are_where_they_belong(load: Callable[[str], Protocol]) -> None:
+    found = trials(load(YES), 0, "no")
+    kinds = [one.kind for one in found]
+    assert kinds[:2] == ["practice"] * 2 and Counter(kinds) == {"practice": 2, "trial": 120, "catch": 30}
+    assert [one.level for one in found[:2]] == [0, 0]  # the thinnest wall pops most
+    assert kinds[2:32] != sorted(kinds[2:32])  # among the others
+
+
+def test_a_staircase_stays_where_three_of_four_answers_are_right(load: Callable[[str], Protocol]) -> None:
     """Kaernbach: up 3, down 1 converge to 75 %, where a step down is as probable as three up."""
     random = np.random.default_rng(1)
     chances = np.linspace(0.55, 0.99, 8)  # of a right answer at each level
-    method, seen = Staircase(right), []
+    method, seen = Staircase(load(RIGHT)), []
     assert method.next() == 7
     for _ in range(4000):
         level = method.next()
@@ -67,23 +61,53 @@ def test_a_staircase_stays_where_three_of_four_answers_are_right(right: Protocol
     assert np.mean(seen[100:]) == pytest.approx(0.75, abs=0.02)
 
 
-def test_quest_takes_the_level_of_the_least_expected_entropy(right: Protocol) -> None:
+def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str], Protocol]) -> None:
     """Against a direct sum over both answers, after some of them: the entropy of the place, whatever the rest is."""
-    method = Quest(right)
-    grid = Grid(right.shape, right.levels, QUEST)
-    p, weight = grid.probability(right.levels), grid.prior
+    protocol = load(RIGHT)
+    method, grid = Quest(protocol), Grid(protocol.shape, protocol.levels, QUEST)
+    p, weight = grid.probability(protocol.levels), grid.prior
     places = np.unique(grid.place)
     for counted in (True, True, False, True, False):
-        entropies = []
-        for row in p:
-            expected = 0.0
+        entropies = np.zeros(len(p))
+        for i, row in enumerate(p):
             for chance in (row, 1 - row):
                 mass = float(chance @ weight)
                 after = np.array([(chance * weight)[grid.place == place].sum() for place in places]) / mass
-                expected -= mass * float(after @ np.log(np.maximum(after, 1e-300)))
-            entropies.append(expected)
+                entropies[i] -= mass * float(after @ np.log(np.maximum(after, 1e-300)))
         level = method.next()
         assert entropies[level] == pytest.approx(min(entropies), abs=1e-9)
         method.add(level, counted)
         weight = weight * (p[level] if counted else 1 - p[level])
         weight /= weight.sum()
+
+
+def test_an_adjustment_ends_where_both_intervals_seem_equal(load: Callable[[str], Protocol]) -> None:
+    protocol = load(ADJUST)
+    session = Simulation(protocol, Observer(weber=0.06)).run(0, 3)
+    found, settings = person(protocol, "", session), [line for line in session if line["answer"] == "equal"]
+    levels = [float(str(line["level"])) for line in settings]
+    assert found.trials == len(levels) == 12 and found.threshold is not None and found.jnd is not None
+    starts = [session[0], *(line for before, line in pairwise(session) if before["answer"] == "equal")]
+    assert sorted(float(str(line["level"])) for line in starts) == [0.14] * 6 + [0.68] * 6
+    assert found.threshold.low < 0.41 < found.threshold.high and found.threshold.value == pytest.approx(np.mean(levels))
+    assert found.jnd.value == pytest.approx(0.67449 * np.std(levels, ddof=1), rel=1e-4)
+    assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(11 / 3.81575), rel=1e-4)  # chi square, 2.5 %
+
+
+@pytest.mark.parametrize(("levels", "sd"), [(np.linspace(0.28, 0.32, 9), 0.04), (np.linspace(0.0, 0.6, 11), 0.02)])
+def test_settings_that_the_levels_make_give_no_jnd(
+    load: Callable[[str], Protocol], levels: np.ndarray, sd: float
+) -> None:
+    """20 settings at the level that is nearest to what a person wants; too few levels, and steps that are too wide."""
+    loaded, random = load(ADJUST), np.random.default_rng(1)
+    protocol = replace(loaded, stimuli=tuple(replace(loaded.stimuli[0], level=float(level)) for level in levels))
+    line = {"kind": "trial", "block": 0, "position": 1, "answer": "equal", "felt": []}
+    for _ in range(20):
+        wanted = random.normal(0.33 if sd < 0.03 else 0.3, sd, 20)
+        nearest = levels[np.abs(levels[:, None] - wanted).argmin(axis=0)]
+        found = person(protocol, "", [line | {"level": float(level)} for level in nearest])
+        if sd > 0.03:
+            assert found.jnd is None and found.reason == "settings reach the end of the levels: show more"
+        else:
+            assert found.jnd is not None and found.jnd.high > 0.67449 * sd
+            assert words(found.jnd).startswith("at most 0.0") and words(found.threshold).startswith("0.3")

@@ -1,15 +1,21 @@
-"""Sessions on disk: no answered trial is lost, and the order goes on as planned."""
+"""Sessions on disk: no answered trial is lost, and the order goes on as planned. The verbs, from protocol to report."""
 
 from __future__ import annotations
 
+import csv
 import errno
+import io
 import json
 import os
 import random
+import wave
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+import pyarrow.parquet as pq
 import pytest
-from protocols import COMPARES, RIGHT, written
+from protocols import COMPARES, RIGHT, YES, written
 from punctura.perception import (
     DiskFullError,
     Observer,
@@ -20,8 +26,10 @@ from punctura.perception import (
     load_protocol,
     read_session,
 )
+from punctura.perception.noise import pink_noise
 from punctura.perception.observer import Senses
 from punctura.perception.report import report_of_folder
+from punctura.perception.table import DICTIONARY
 
 
 @pytest.fixture(scope="module")
@@ -90,14 +98,19 @@ def test_what_is_no_session_of_the_protocol_is_refused(tmp_path: Path, senses: S
     assert path.read_text() == '{"a": 1}\n'
 
 
-def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: Senses) -> None:
-    simulation = Simulation(senses.protocol, Observer(), senses)
-    simulation.run_on_disk(tmp_path, "P01", 7)
-    path = tmp_path / "P01.jsonl"
+def changed(folder: Path, senses: Senses, wrong: Callable[[dict], dict]) -> Path:
+    """A session whose sixth line was changed by hand."""
+    Simulation(senses.protocol, Observer(), senses).run_on_disk(folder, "P01", 7)
+    path = folder / "P01.jsonl"
     lines = path.read_text().splitlines()
-    fifth = json.loads(lines[5])
-    lines[5] = json.dumps(fifth | {"position": 1 - fifth["position"]})
+    line = json.loads(lines[5])
+    lines[5] = json.dumps(line | wrong(line))
     path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: Senses) -> None:
+    changed(tmp_path, senses, lambda line: {"position": 1 - line["position"]})
     with pytest.raises(SessionError, match="trial 4 is not the one"):
         Session(senses.protocol, tmp_path, "P01")
 
@@ -105,14 +118,8 @@ def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: 
 @pytest.mark.parametrize(
     "wrong", [{"answer": "maybe"}, {"position": 7}, {"level": 9.9}, {"felt": []}, {"trial": 3}, {"kind": ""}]
 )
-def test_a_trial_that_was_changed_by_hand_is_not_analysed(
-    tmp_path: Path, senses: Senses, wrong: dict[str, object]
-) -> None:
-    Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "P01", 7)
-    path = tmp_path / "P01.jsonl"
-    lines = path.read_text().splitlines()
-    lines[5] = json.dumps(json.loads(lines[5]) | wrong)
-    path.write_text("\n".join(lines) + "\n")
+def test_a_trial_that_was_changed_by_hand_is_not_analysed(tmp_path: Path, senses: Senses, wrong: dict) -> None:
+    path = changed(tmp_path, senses, lambda _: wrong)
     with pytest.raises(SessionError, match="line 6: is no trial of this session"):
         report_of_folder(senses.protocol, tmp_path)
     path.rename(tmp_path / "P02.jsonl")
@@ -120,17 +127,14 @@ def test_a_trial_that_was_changed_by_hand_is_not_analysed(
         report_of_folder(senses.protocol, tmp_path)
 
 
-def test_people_and_observers_have_their_own_folders(tmp_path: Path, senses: Senses) -> None:
-    Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "O01", 7)
-    with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
-        Session(senses.protocol, tmp_path, "P01")
-
-
-def test_participants_have_their_own_numbers_and_can_be_deleted(tmp_path: Path, senses: Senses) -> None:
+def test_participants_have_their_own_numbers_and_can_be_deleted(
+    tmp_path: Path, senses: Senses, monkeypatch: pytest.MonkeyPatch
+) -> None:
     numbers = []
     for name in ("P01", "P02"):
         with Session(senses.protocol, tmp_path, name) as session:
             numbers.append(session.header["number"])
+    assert report_of_folder(senses.protocol, tmp_path).people[0].reason.startswith("0 answers are too few")
     assert numbers == [0, 1] and (tmp_path / "P01.jsonl").stat().st_mode & 0o077 == 0
     recording, beside = tmp_path / "P01-0000-1.parquet", tmp_path.parent / "P01-0000-1.parquet"
     recording.touch()
@@ -139,10 +143,60 @@ def test_participants_have_their_own_numbers_and_can_be_deleted(tmp_path: Path, 
         trial = session.next()
         assert trial is not None
         felt = Simulation(senses.protocol, Observer(), senses).answer(trial, 1)
+        sync, synced = os.fsync, set()
+        monkeypatch.setattr(os, "fsync", lambda file: (synced.add(os.fstat(file).st_ino), sync(file)))
         session.add(trial, *felt, recordings=[recording.name, f"../{recording.name}"])
+        assert {file.stat().st_ino for file in (tmp_path, recording, session.path)} <= synced  # after a loss of power
     assert set(delete_participant(tmp_path, "P01")) == {recording, tmp_path / "P01.jsonl"}
     assert beside.exists() and (tmp_path / "P02.jsonl").exists()
     with pytest.raises(SessionError, match="has no participant"):
         delete_participant(tmp_path, "P01")
     with Session(senses.protocol, tmp_path, "P03") as session:
         assert session.header["number"] == 0
+
+
+def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int, str, str]]) -> None:
+    file = written(tmp_path, YES)
+    status, out, _ = punctura("perception", "check", file, "--json")
+    checked = json.loads(out)
+    assert status == 0 and checked["trials"] == 152 and checked["unit"] == "m"
+    drops = [level["drop"] for level in checked["levels"]]
+    assert drops == sorted(drops, reverse=True)
+    status, out, err = punctura("perception", "simulate", file, "--people", 2, "--observer", "noise=0.03", "--json")
+    found = json.loads(out)
+    assert status == 0, err
+    assert [one["trials"] for one in found["people"]] == [120, 120]
+    folder = tmp_path / "mine.perception"
+    again = json.loads(punctura("perception", "analyse", file, "--json")[1])
+    assert again == found == json.loads((folder / "results.json").read_text())
+    table = pq.read_table(folder / "trials.parquet")
+    assert table.column_names == [name for name, *_ in DICTIONARY] and table.num_rows == 304
+    with (folder / "trials.csv").open() as opened:
+        rows = list(csv.DictReader(opened))
+    assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
+    report, picture = ((folder / name).read_text() for name in ("report.md", "functions.svg"))
+    assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report
+    assert "<!-- thickness of the thin membrane, mm -->" in picture
+    status, out, _ = punctura("perception", "delete", file, "O01")
+    assert status == 0 and out.count("deleted") == 7
+    assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
+    status, _, err = punctura("perception", "analyse", file, "--out", tmp_path / "none")
+    assert status == 2 and "there is no folder" in err
+    for wrong, words in (("weber=a", "KEY=NUMBER"), ("webber=1", "none of weber, "), ("lapse=2", "from 0 to 1")):
+        status, _, err = punctura("perception", "power", file, "--observer", wrong)
+        assert status == 2 and words in err
+    changed = written(tmp_path, YES.replace("seed = 4", "seed = 5"))
+    status, _, err = punctura("perception", "analyse", changed)
+    assert status == 1 and "another protocol or of a changed one" in err
+    with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
+        Session(load_protocol(changed), folder, "P01")
+
+
+def test_masking_noise_has_as_much_power_in_each_octave() -> None:
+    with wave.open(io.BytesIO(pink_noise(2))) as file:
+        rate, sound = file.getframerate(), np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(float)
+    assert len(sound) == 2 * rate and abs(sound).max() == 32_767
+    power, hertz = abs(np.fft.rfft(sound)) ** 2, np.fft.rfftfreq(len(sound), 1 / rate)
+    octaves = [power[(hertz >= low) & (hertz < 2 * low)].sum() for low in (100, 400, 1600, 6400)]
+    assert octaves == pytest.approx([octaves[0]] * 4, rel=0.02)
+    assert abs(sound[0] - sound[-1]) < 5 * np.diff(sound).std()  # it can play in a loop
