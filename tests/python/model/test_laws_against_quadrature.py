@@ -97,3 +97,11 @@ def test_as_the_thickness_goes_to_zero_the_law_tends_to_the_thin_law():
             )
             apart = abs(np.array(thick.bounds(q[lane])) - the_thin.bounds(q[lane])).max()
             assert apart <= slope * thickness / 2 * (1 + 1e-6) + 1e-9 * L.largest[lane]
+
+
+@pytest.mark.parametrize("depth", [3, 1e-3, np.float64(1e-3), np.float32(1e-3), np.int64(2), np.array(1e-3)], ids=repr)
+def test_one_depth_of_any_number_type_gives_two_plain_numbers(depth):
+    law = punctura.ThinLaw(punctura.Needle(1.08e-3, 0.28), punctura.Membrane(570.0, 0.41, 0.2, 0.0))
+    lower, upper = law.bounds(depth)
+    assert type(lower) is type(upper) is float
+    assert ([lower], [upper]) == tuple(edge.tolist() for edge in law.bounds([float(depth)]))

@@ -21,17 +21,6 @@ def test_a_thin_wall_has_the_profile_itself() -> None:
     assert GEL.bounds(0.05) == (-0.2, 0.2)
 
 
-def test_a_thick_wall_has_the_average_over_the_path() -> None:
-    """K06 (16), by sums over a fine grid."""
-    path = 1e-3 / np.cos(0.4)
-    points = (np.arange(100_000) + 0.5) / 100_000 * path
-    for q in (0.5e-3, 2.5e-3, 3.6e-3, 4.5e-3, 9e-3):
-        at = q - points
-        for edge, given in zip(WALL.bounds(q), (WALL.lower, WALL.upper), strict=True):
-            thin = np.where(at < 0, 0, np.interp(at, WALL.depth, given))
-            assert edge == pytest.approx(thin.mean() * path / 1e-3, rel=1e-4)
-
-
 def test_the_force_is_linear_in_the_knots_values() -> None:
     q = np.linspace(-1e-3, 9e-3, 50).reshape(5, 10)
     weights = WALL.weights(q)

@@ -26,22 +26,6 @@ def forces(tissue: pn.Tissue) -> NDArray[np.float64]:
     return -proxy.run(strokes()).force.reshape(2, 6400)
 
 
-def test_without_additions_it_is_k06_bit_for_bit() -> None:
-    k06 = pn.Proxy1d(pn.ThickLaw(NEEDLE, WALL), COUPLING, 1 / 1600).run(strokes()).force
-    assert np.array_equal(-forces(pn.Tissue()).ravel(), k06)
-    q = np.linspace(-1e-3, 9e-3, 500)
-    assert np.array_equal(
-        pn.TissueLaw(NEEDLE, WALL, pn.Tissue()).bounds(q), pn.ThickLaw(NEEDLE, WALL).bounds(q), equal_nan=False
-    )
-
-
-def test_the_first_insertion_takes_the_work_of_cutting_more_than_the_second() -> None:
-    force = forces(pn.Tissue(cutting=0.3))
-    way = np.diff(strokes(1)[:3201])
-    first, second = (np.sum(one[1:3201] * way) for one in force)
-    assert first - second == pytest.approx(0.3 * pn.TissueLaw(NEEDLE, WALL, pn.Tissue()).X, rel=0.01)
-
-
 def test_a_set_lowers_the_second_plateau_and_a_tail_both() -> None:
     force = forces(pn.Tissue(set=0.3, tail_length=1e-3, tail_floor=0.5))
     assert force[0, 3190] == pytest.approx(0.5 * F)

@@ -64,7 +64,7 @@ def walk_3d(s, solver: str):
     return f, e, q, phase
 
 
-def insertion(s, scene: int, solver: str, direction: str = "stylus") -> punctura.Insertion:
+def insertion(s, scene: int, solver: str) -> punctura.Insertion:
     """The core's insertion for one scene of random_scenes.Scenes: low-pass, all its membranes, their sum."""
     lanes = s.members(scene)
     c = s.coupling
@@ -77,6 +77,6 @@ def insertion(s, scene: int, solver: str, direction: str = "stylus") -> punctura
                 )
                 for i, lane in enumerate(lanes)
             ],
-            ServoSettings(1 / float(c.T[lanes[0]]), float(s.low_pass[scene]), solver), direction=direction,
+            ServoSettings(1 / float(c.T[lanes[0]]), float(s.low_pass[scene]), solver),
         )
     )  # fmt: skip

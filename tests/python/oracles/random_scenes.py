@@ -82,11 +82,6 @@ def scenes(seed, n, ticks) -> Scenes:
     return Scenes(parameters, L, Plane(a, normal), scene, coupling, p, axis, low_pass)
 
 
-def turned(s: Scenes, R) -> Scenes:
-    """The same scenes, turned by the rotation matrix R about the origin."""
-    return replace(s, plane=Plane(s.plane.a @ R.T, s.plane.n @ R.T), p=s.p @ R.T, axis=s.axis @ R.T)
-
-
 def lane_motions(s: Scenes):
     """(p, axis) for every lane: (ticks, lanes, 3)."""
     return s.p[:, s.scene], s.axis[:, s.scene]

@@ -47,26 +47,6 @@ def test_the_line_fit_is_the_end_of_the_longest_line_that_fits(rate, finer):
         assert abs(found[:, i] - signal.line_fit(p[:, i], rate, step)).max() <= 1e-12
 
 
-def test_the_low_pass_does_not_depend_on_the_encoder_step():
-    p = wander(np.random.default_rng(8), 400, 1600.0)
-    assert (tips(insertion(encoder_step=0.0), p) == tips(insertion(encoder_step=1e-3), p)).all()
-    assert abs(tips(insertion(), p) - signal.low_pass(p, 1600.0, 300.0)).max() <= 1e-15
-
-
-def test_the_line_fit_does_not_depend_on_the_low_pass():
-    p = wander(np.random.default_rng(9), 400, 1600.0)
-    a, b = (insertion(conditioning="line_fit", low_pass=hz) for hz in (0.0, 50.0))
-    assert (tips(a, p) == tips(b, p)).all()
-
-
-def test_a_run_is_the_same_as_its_ticks_and_a_reset_starts_anew():
-    p = wander(np.random.default_rng(10), 300, 1600.0)
-    run = insertion(conditioning="line_fit")
-    first = tips(run, p)
-    run.reset()
-    assert (tips(run, p) == first).all()
-
-
 def test_settings_are_values_and_tell_what_is_wrong_with_them():
     settings = ServoSettings(conditioning="line_fit", encoder_step=1e-5)
     assert settings.replace(solver="paper") == ServoSettings(1600.0, 300.0, "paper", "line_fit", 1e-5)

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import punctura
 import pytest
-from oracles import cases, core, exact_residual, proxy_1d, proxy_3d, random_runs, random_scenes
+from oracles import cases, core, exact_residual, proxy_3d, random_scenes
 from oracles.proxy_3d import dot
 
 pytestmark = pytest.mark.xdist_group("proxy_3d")  # in one worker: their shared fixture takes seconds
@@ -102,28 +102,6 @@ def test_the_random_scenes_meet_every_phase_and_every_case_of_entry():
     assert ((beta[1:] > 140) & arrives).any(), "comes from behind"
     assert (beta[1:][inside[1:] & ~inside[:-1]] > 70).any(), "enters steeply"
     assert (inside[:-1] & ~inside[1:]).any(), "leaves"
-
-
-@pytest.mark.parametrize("solver", ["exact", "paper"])
-def test_along_the_normal_it_is_the_one_dimensional_proxy(solver):
-    """Whole runs for exact; for paper those whose substitution contracts, as rounding grows in the others."""
-    r = random_runs.runs(41, cases.count(150), 150)
-    rng = np.random.default_rng(41)
-    law = r.parameters.law().with_cos_beta(1.0)
-    chosen = law.H > 0
-    if solver == "paper":
-        chosen &= proxy_1d.contracts(law, r.coupling)
-    assert chosen.sum() > 40 or cases.count(150) < 150
-    for lane in np.flatnonzero(chosen):
-        n = random_scenes.unit(rng.standard_normal(3))
-        the_needle, the_membrane = core.needle(r.parameters, lane), core.membrane(r.parameters, lane)
-        coupling = punctura.Coupling(float(r.coupling.K[lane]), float(r.coupling.B[lane]))
-        T = float(r.coupling.T[lane])
-        flat = punctura.Proxy1d(punctura.ThickLaw(the_needle, the_membrane), coupling, T, solver=solver)
-        space = punctura.Proxy3d(the_needle, the_membrane, [0, 0, 0], n, coupling, T, solver=solver)
-        p = np.concatenate([[-1e-4], r.p[:, lane]])
-        f = space.run(p[:, None] * n, n).force
-        assert abs(f - flat.run(p).force[:, None] * n).max() <= 1e-10
 
 
 def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
