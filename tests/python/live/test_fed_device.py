@@ -1,6 +1,5 @@
 """A device that a loop in Python drives."""
 
-import math
 import sys
 import threading
 import time
@@ -10,10 +9,7 @@ import punctura as pn
 import pytest
 from punctura.live import (
     DeviceInfo,
-    Fault,
     FedDevice,
-    GateLimits,
-    Limit,
     Pacer,
     ReplayDevice,
     ServoLoop,
@@ -51,13 +47,6 @@ def test_the_reply_to_a_reading_is_the_force_of_its_tick():
     assert loop.report()["ticks"] == loop.device.fed == len(PATH)
 
 
-def test_without_a_running_loop_there_is_no_tick_and_no_force():
-    device = FedDevice(1000)
-    assert device.feed([0, 0, 0]) == (0.0, 0.0, 0.0) and device.fed == 0
-    _, loop = fed_forces(device, PATH[:10])
-    assert device.feed([0, 0, 0]) == (0.0, 0.0, 0.0) and loop.report()["ticks"] == 10
-
-
 def test_all_of_a_reading_reaches_the_tick():
     device = FedDevice(1000, real_time=False)
     loop = ServoLoop(device, SCENE)
@@ -72,49 +61,12 @@ def test_all_of_a_reading_reaches_the_tick():
     assert loop.latest()["fault"][0] and "healthy = false" in device.trouble()
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_a_motor_temperature_that_is_not_finite_is_a_fault(bad):
-    device = FedDevice(1000, real_time=False)
-    with ServoLoop(device, SCENE) as loop:
-        loop.start()
-        device.feed((0, 1e-3, 0))
-        device.feed((0, 1e-3, 0), motor_temperature=bad)
-        assert Fault(loop.latest()["fault"][0]) == Fault.non_finite_input
-
-
-def test_a_temperature_sensor_that_fails_now_and_then_does_not_switch_the_force():
-    device = FedDevice(1600, real_time=False)
-    with ServoLoop(device, SCENE) as loop:
-        loop.arm()
-        loop.start()
-        steady = [device.feed(place)[1] for place in PATH][-1]
-        hot = [device.feed(PATH[-1], motor_temperature=1.2 if k % 2 == 0 else 0.0)[1] for k in range(1600)]
-        assert steady > 0.1 and max(hot) < 2e-3 and int(loop.latest()["limit"][0]) == int(Limit.temperature)
-        cool = [device.feed(PATH[-1])[1] for _ in range(16001)]
-        assert max(abs(np.diff(cool))) < 1e-3 and cool[-1] == pytest.approx(steady, rel=0.1)
-
-
 def test_what_the_device_says_of_itself_limits_the_force():
     info = DeviceInfo(model="mine", max_force=0.4, encoder_step=1e-5)
     forces, loop = fed_forces(FedDevice(1600, info=info, real_time=False), PATH)
     assert np.linalg.norm(forces, axis=1).max() == pytest.approx(0.4)
     assert (loop.device.info.backend, loop.device.info.model, loop.device.info.rate) == ("fed", "mine", 1600.0)
     assert np.isnan(loop.device.info.continuous_force)
-
-
-def test_a_pause_of_the_feeder_is_a_fault_at_its_next_reading():
-    device = FedDevice(1000)
-    loop = ServoLoop(device, SCENE, GateLimits(deadline=1e-3))
-    loop.start()
-    device.feed((0, 5e-3, 0))
-    time.sleep(2e-3)
-    device.feed((0, 5e-3, 0))
-    assert loop.latest()["fault"][0]
-
-
-def test_a_feeder_that_does_not_keep_to_its_rate_is_reported():
-    _, loop = fed_forces(FedDevice(100), PATH[:100])
-    assert "not at the rate that it was opened with" in loop.device.statements()[0]
 
 
 def test_a_live_run_goes_on_beside_the_thread_that_feeds():
@@ -159,11 +111,6 @@ def test_a_feeder_asks_for_real_time_priority_and_the_run_says_what_it_was_given
     assert reports and all("granted" in line for line in reports)
     assert any("processor 1048576: not granted" in line for line in reports), "asked for one that is not there"
     assert device.statements()[: len(reports)] == reports and "fed at" in device.statements()[-1]
-
-
-def test_a_feeder_that_has_not_asked_for_priority_is_reported():
-    _, loop = fed_forces(FedDevice(1600), PATH[:10])
-    assert "make_realtime()" in loop.device.statements()[-1]
 
 
 def test_a_pacer_wakes_at_its_rate_and_never_early():

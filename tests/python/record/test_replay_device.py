@@ -43,13 +43,6 @@ def test_through_another_scene_the_same_motion_has_other_forces(start):
     assert not np.array_equal(again["force"], forces(recording)) and again["depth"].shape == (4000, 1)
 
 
-def test_a_fault_of_the_recording_is_found_again_at_its_tick(start):
-    gate = GateLimits(max_speed=0.032)
-    run = start(gate=gate).record()
-    again = snapshots(replay_device(run.path, real_time=False), load_scene("k06-fig12"), gate)
-    assert np.flatnonzero(again["fault"])[0] == open_recording(run.path).faults[0]["tick"]
-
-
 def test_it_passes_for_the_recorded_device(start):
     device = replay_device(start().record().path)
     info = device.info
