@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from program import ProgramError
-from rivals_measured import measure_rivals, rivals_table
 
 
 def measure_batches(program: Path, seconds: float) -> dict[str, Any]:
@@ -18,7 +17,7 @@ def measure_batches(program: Path, seconds: float) -> dict[str, Any]:
     if done.returncode != 0:
         raise ProgramError(f"{program.name} ended with {done.returncode}; see its message above")
     result: dict[str, Any] = json.loads(done.stdout)
-    return result | {"rivals": measure_rivals()}
+    return result
 
 
 def batch_table(result: dict[str, Any]) -> list[str]:
@@ -34,7 +33,7 @@ def batch_table(result: dict[str, Any]) -> list[str]:
         lines += _contestants(row["contestants"])
     lines += _threads(result["threads"])
     lines.append(f"  bytes for each trial: {result['bytes_per_trial']}, and its law")
-    return [*lines, *_growth(result["growth"]), *_roofline(result), *rivals_table(result["rivals"])]
+    return [*lines, *_growth(result["growth"]), *_roofline(result)]
 
 
 def _threads(rows: list[dict[str, Any]]) -> Iterator[str]:

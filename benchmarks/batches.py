@@ -1,8 +1,8 @@
-"""Measures batches alone: against the core tick by tick, and against NumPy, Numba and JAX. ./bench has the same rows.
+"""Measures batches alone, against the core tick by tick. ./bench has the same rows.
 
 python benchmarks/batches.py [--json FILE] [--pictures FOLDER] [--seconds S] [--program FILE]
 
-Numba and JAX are compared if they are installed. docs/performance.md has the figures.
+docs/performance.md has the figures.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from run import machine, versions
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Measures batches against the scalar core and other tools.")
+    parser = argparse.ArgumentParser(description="Measures batches against the scalar core.")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all results and the machine's data")
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw the results as SVG files")
     parser.add_argument("--seconds", type=float, default=4, help="seconds for each row (default %(default)s)")
