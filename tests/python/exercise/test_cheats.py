@@ -91,6 +91,7 @@ def test_an_honest_attempt_passes(name):
     made = result(name, run(name, HONEST[name]))
     assert made.passed, made.reasons
     assert {goal.state for goal in made.goals} == {"met"} and made.verdict == "passed"
+    assert made.metrics.peak_force < 3.3 or name.startswith("epidural")  # what a desktop device can give
 
 
 @pytest.mark.parametrize("how", CHEATS)
@@ -145,6 +146,7 @@ def test_a_point_that_slides_out_of_the_side_of_the_vein_does_not_pass(name):
 def test_a_needle_that_is_not_moved_aside_misses_the_rolling_vein():
     made = result("rolling-vein", run("rolling-vein", HONEST["rolling-vein"], aside=False))
     assert not made.passed and made.reasons[0] == "The point came into the vein 4.0 mm beside the middle line."
+    assert made.coaching.change[0].about == "line"
 
 
 WORDS = {  # what the words of an exercise promise, and the goal that judges it
