@@ -33,9 +33,11 @@ from layout import ROOT
 PAGE = ROOT / "docs" / "first-hour.md"
 FAKES = ROOT / "tests" / "fakes"
 # missing: no library or service. none: no device. raw: not calibrated. rest: held still. pressed: pushed 2 mm into the
-# membrane, and back. pulled: the same, and the cable is pulled while it is pressed. strokes: pushed through, and back.
+# membrane, and back. Of the touch alone: pulled, the same, and the cable is pulled while it is pressed; strokes, pushed
+# through, and back.
 DEVICES = ("touch", "omega", "inverse3")
-STATES = ("missing", "none", "raw", "rest", "pressed", "pulled", "strokes")
+STATES = ("missing", "none", "raw", "rest", "pressed")
+OF_TOUCH = ("pulled", "strokes")
 LIBRARIES = {"touch": ("hd", "libHD.so"), "omega": ("drd", "libdrd.so.3")}
 VARIABLES = {"touch": "PUNCTURA_HD_LIBRARY", "omega": "PUNCTURA_DRD_LIBRARY"}
 ABOVE = 0.03  # m, of the omega's arm
@@ -203,9 +205,8 @@ def omega(library: ctypes.CDLL, state: str) -> None:
     known = (int(state != "none"), 0, 33, 0, int(state != "raw"), 1, 0, 0)
     settings = Settings(*known, -1, 12, 1e9, 0.01, *frame, 0.055e-3, 0.26, 3e-5, 0)
     library.fake_drd_reset(ctypes.byref(settings))
-    above, rest = (0.0, 0.0, ABOVE), 1.0
+    above = (0.0, 0.0, ABOVE)
     library.fake_drd_target(*(ctypes.c_double(value) for value in above))
-    library.fake_drd_now.restype = ctypes.c_int64
 
     def during_the_run() -> None:
         report = (ctypes.c_int64 * 32)()  # fake_drd::Report: the number of readings is its thirteenth
@@ -214,10 +215,7 @@ def omega(library: ctypes.CDLL, state: str) -> None:
             library.fake_drd_report(report)
         if state in WAYS:
             below = (0.0, 0.0, ABOVE - WAYS[state])
-            library.fake_drd_strokes(ctypes.byref(Strokes(above, below, 1, 2, rest, 0, 1)))
-        if state == "pulled":
-            unplug, then = 0, library.fake_drd_now() + int((rest + PULLED_S) * 1e9)
-            library.fake_drd_inject(ctypes.c_int(unplug), ctypes.c_int64(then))
+            library.fake_drd_strokes(ctypes.byref(Strokes(above, below, 1, 2, 1, 0, 1)))
 
     threading.Thread(target=during_the_run, daemon=True).start()
 
@@ -245,7 +243,6 @@ def serve(state: str) -> None:
             since = time.monotonic() - begin - 2 if begin else 0.0  # opening takes less
             down = max(0.0, min(since, 5 - since, 2) / 2)
             service.arm.hand[2] = above - WAYS.get(state, 0) * down
-            service.removed |= state == "pulled" and since > PULLED_S
 
     asyncio.run(forever())
 
