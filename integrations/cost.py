@@ -18,7 +18,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import punctura as pn
@@ -99,7 +98,6 @@ def in_python(rows: np.ndarray, rate: float) -> Iterator[tuple[str, Callable[[],
     yield "Python: PosedNeedle.move, a pose each 10 ms, cost of a pose", lambda: best(200, 10, poses)
     yield "MuJoCo: what attach() adds to mj_step()", mujoco_step
     yield "FMU in fmpy: set 6 inputs, step of one tick, get 3 outputs", lambda: fmu(slow, rate)
-    yield "ROS 2: on_pose (stand-ins for rclpy), a pose a tick", lambda: ros(slow, rate)
     yield "OpenIGTLink: answer, without the network, a transform a tick", lambda: openigtlink(slow, rate)
 
 
@@ -127,25 +125,6 @@ def fmu(rows: np.ndarray, rate: float) -> float:
             slave.step(next(ticks) / rate, 1 / rate, row[:6])
 
     return best(len(rows), 10, go)
-
-
-def ros(rows: np.ndarray, rate: float) -> float:
-    sys.path[:0] = [str(HERE / "untried/ros2"), str(HERE / "untried/ros2/test/stand_ins")]
-    from punctura_ros.node import NeedleNode  # type: ignore[import-not-found]
-    from rclpy.node import Node  # type: ignore[import-not-found]
-
-    Node.overrides = {"scene": str(WORK / "scene.toml")}
-    node, ticks = NeedleNode(), iter(range(10**9))
-
-    def go() -> None:
-        for row in rows:
-            seconds, rest = divmod(round(next(ticks) * 1e9 / rate), 10**9)
-            header = SimpleNamespace(stamp=SimpleNamespace(sec=seconds, nanosec=rest), frame_id="")
-            position = SimpleNamespace(x=row[0], y=row[1], z=row[2])
-            turn = SimpleNamespace(x=0.7, y=0.0, z=0.0, w=0.7)
-            node.on_pose(SimpleNamespace(header=header, pose=SimpleNamespace(position=position, orientation=turn)))
-
-    return best(len(rows), 20, go)
 
 
 def openigtlink(rows: np.ndarray, rate: float) -> float:

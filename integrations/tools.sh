@@ -39,18 +39,19 @@ make_reference() {
   python3 "$root/integrations/reference.py" "$reference"
 }
 
-# with_package NAME REQUIREMENT: installs a package from PyPI beside those of .venv, in an environment of its own. Sets:
-# python, which has both.
+# with_package NAME REQUIREMENT...: installs packages from PyPI beside those of .venv, in an environment of their own.
+# Sets: python, which has both.
 with_package() {
-  local base venv=$root/build/integrations/python-$1
+  local base name=$1 venv=$root/build/integrations/python-$1
+  shift
   need python3 python3
   need_module punctura "'.[test]'   (in the root of the project)"
   python=$(command -v python3)
-  ! "$python" -c "import $1" >/dev/null 2>&1 || return 0
+  ! "$python" -c "import $name" >/dev/null 2>&1 || return 0
   base=$python python=$venv/bin/python
-  ! "$python" -c "import $1" >/dev/null 2>&1 || return 0
+  ! "$python" -c "import $name" >/dev/null 2>&1 || return 0
   "$base" -m venv --without-pip --clear "$venv"
   "$base" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' \
     >"$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/punctura.pth"
-  "$base" -m pip --python "$python" install -q "$2" || { echo "$2 cannot be installed here"; exit 77; }
+  "$base" -m pip --python "$python" install -q "$@" || { echo "$* cannot be installed here"; exit 77; }
 }

@@ -22,9 +22,9 @@ LINKED = (
 )
 PAGES = (
     *("*.md", "docs/*.md", "docs/decisions/*.md", "docs/notebooks/*.md", "examples/*"),
-    *("integrations/*.md", "integrations/*/README.md", "integrations/untried/*/README.md"),
+    *("integrations/*.md", "integrations/*/README.md"),
 )  # conf.py reads it, too
-CONTENTS = "\n```{toctree}\n:hidden:\n:glob:\n\n*/README\nuntried/*/README\n```\n"
+CONTENTS = "\n```{toctree}\n:hidden:\n:glob:\n\n*/README\n```\n"
 LINK = re.compile(r"\]\(([^)#:\s]+)")
 HEADER = re.compile(r"\]\((?:\.\./)*((?:core|runtime)/[\w/]+\.hpp)\)")
 FOLDER = re.compile(r"\]\(((?:\.\./)*)core/punctura/(?:lab/)?(\w+)/?\)")

@@ -82,10 +82,6 @@ def test_an_sdist_is_the_tree_with_the_page(tmp_path: Path) -> None:
 
 
 INTEGRATIONS = {  # each file and the line with the version
-    "untried/arduino/library/library.json": r'"version": "(.*)"',
-    "untried/arduino/library/library.properties": r"version=(.*)",
-    "untried/ros2/package.xml": r"<version>(.*)</version>",
-    "untried/ros2/setup.py": r'version="(.*)"',
     "rust/Cargo.toml": r'\nversion = "(.*)"',
     "wasm/package.json": r'"version": "(.*)"',
 }
