@@ -53,7 +53,7 @@ class Mouse:  # drags like a hand: slowly, and anew where the page ends
         mouse.up()
 
     def again(self) -> None:
-        self.page.get_by_text("again, slowly").first.click()
+        self.page.get_by_text("again, slowly").filter(visible=True).first.click()
 
 
 class Keys(Mouse):  # presses Tab until the page names the keys, and then holds one of these
@@ -72,7 +72,7 @@ class Keys(Mouse):  # presses Tab until the page names the keys, and then holds 
         self.page.keyboard.up(key)
 
     def again(self) -> None:
-        self.page.get_by_role("button", name="again, slowly").first.press("Enter")
+        self.page.get_by_role("button", name="again, slowly").first.press("Enter")  # a role is of what can be seen
 
 
 def try_once(page: Page, url: str, by: type[Mouse]) -> tuple[float, float, str]:
