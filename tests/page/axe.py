@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+from person import PATIENCE
 from playwright.sync_api import Page
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
@@ -48,7 +49,7 @@ def check(page: Page, state: str, part: str = "") -> None:
 def _at(page: Page, state: str, size: tuple[int, int], colours: str, rules: list[str], part: str = "") -> None:
     page.emulate_media(color_scheme=colours)
     page.set_viewport_size({"width": size[0], "height": size[1]})
-    page.evaluate(NEXT_PICTURE)
+    _in_time(page, NEXT_PICTURE)
     if rules:
         _none(page, f"{state}, {size[0]} px wide, {colours}", {"runOnly": {"type": "rule", "values": rules}}, part)
     _fits(page, state, size)
@@ -67,5 +68,11 @@ def none_found(page: Page, state: str) -> None:
 def _none(page: Page, state: str, rules: dict[str, object], part: str = "") -> None:
     """All rules on the whole page are also for what is hidden: each id is there once."""
     seen = bool(part) or rules is not TARGETS
-    found = page.evaluate(RUN, [rules, part.split(", ") if part else None, seen])
+    found = _in_time(page, RUN, [rules, part.split(", ") if part else None, seen])
     assert not found, f"{state}: {json.dumps(found, indent=1)}"
+
+
+def _in_time(page: Page, script: str, given: object = None) -> object:
+    """What the script's promise gives. Playwright alone waits for a promise without an end."""
+    late = f"new Promise((_, fail) => setTimeout(() => fail(new Error('no answer from the page')), {PATIENCE}))"
+    return page.evaluate(f"(given) => Promise.race([({script})(given), {late}])", given)
