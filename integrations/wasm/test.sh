@@ -14,7 +14,6 @@ bash "$here/build.sh"
 node "$here/test.mjs" "$reference"
 python3 "$here/live_reference.py" "$work/live"
 node "$here/test_live.mjs" "$work/live"
-node "$here/cost.mjs" "$reference"
 node "$here/example.mjs" | awk '{ print; if ($3 > most) most = $3 } END { exit !(most > 0.4) }'
 
 python3 "$root/tools/build_backend/studio_page.py" --modules

@@ -115,11 +115,6 @@ static class Test
     {
         string toml = File.ReadAllText(Path.Combine(arguments[0], "scene.toml"));
         Triple[,] rows = ReadRows(Path.Combine(arguments[0], "motion.f64"));
-        if (arguments.Length > 1)
-        {
-            Cost.Print(toml, rows);
-            return 0;
-        }
         Binding(toml, rows);
         Errors(toml);
         Device(toml);
