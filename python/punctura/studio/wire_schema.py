@@ -1,8 +1,9 @@
-"""All that goes between studio and page as JSON Schema, of which its types are made: `python -m` runs this module."""
+"""All that goes between studio and page as JSON Schema, and as TypeScript: `python -m`, --typescript."""
 
 from __future__ import annotations
 
 import json
+import sys
 from typing import Any
 
 from pydantic import TypeAdapter
@@ -63,5 +64,42 @@ def _union(schema: JsonSchemaValue) -> JsonSchemaValue:
     return {"oneOf": parts}
 
 
+WORDS = {"string": "string", "number": "number", "integer": "number", "boolean": "boolean", "null": "null"}
+
+
+def typescript() -> str:
+    """The types of the page: an interface for each definition of the schema, a type for each union."""
+    schema = wire_schema()
+    parts = ["// Made by npm run types, from the models of python/punctura/studio/wire_schema.py."]
+    parts += [f"export type {one['title']} = {_type_of(one)};" for one in schema["properties"].values()]
+    for name, definition in schema["$defs"].items():
+        required = definition["required"]
+        words = definition.get("description", "")
+        parts += [*(f"// {line}".rstrip() for line in words.split("\n") if words), f"export interface {name} {{"]
+        for key, entry in definition.get("properties", {}).items():
+            parts.append(f"  {key}{'' if key in required else '?'}: {_type_of(entry)};")
+        parts.append("}")
+    return "\n".join(parts)
+
+
+def _type_of(schema: JsonSchemaValue) -> str:
+    if "$ref" in schema:
+        return str(schema["$ref"]).rsplit("/", 1)[1]
+    for union in ("anyOf", "oneOf"):
+        if union in schema:
+            return " | ".join(map(_type_of, schema[union]))
+    if "const" in schema or "enum" in schema:
+        return " | ".join(json.dumps(value) for value in schema.get("enum", [schema.get("const")]))
+    if schema["type"] == "array":
+        item = _type_of(schema["items"])
+        if schema.get("minItems") and schema.get("minItems") == schema.get("maxItems"):
+            return f"[{', '.join([item] * schema['minItems'])}]"
+        return f"({item})[]" if " " in item else f"{item}[]"
+    if schema["type"] == "object":
+        values = schema.get("additionalProperties", True)
+        return f"Record<string, {'unknown' if values is True else _type_of(values)}>"
+    return WORDS[schema["type"]]
+
+
 if __name__ == "__main__":
-    print(json.dumps(wire_schema(), indent=2))
+    print(typescript() if "--typescript" in sys.argv else json.dumps(wire_schema(), indent=2))
