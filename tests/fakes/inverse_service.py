@@ -1,7 +1,5 @@
 """A simulated Inverse Service on its own port, for any WebSocket client.
 
-    python tests/fakes/inverse_service.py [--port 10001] [--version 3.5.2] [--takes vector|values] [--strict]
-
 It behaves like the real service: after connecting it sends one inventory, then exactly one state for each message. A
 force lasts until the next message, but not longer than `persists`. The WebSocket is that of the library websockets,
 independent of Punctura's own.
@@ -9,7 +7,6 @@ independent of Punctura's own.
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import http
 import json
@@ -43,7 +40,7 @@ class Arm:
 
 @dataclass
 class InverseService:
-    """Faults are set by assignment during a run: removed, silent, garbled, oversized, id, missing (arrays left out)."""
+    """`removed` and `id` may be set during a run."""
 
     version: str = "3.5.2"
     takes: str = "vector"
@@ -51,10 +48,6 @@ class InverseService:
     period: float = 1 / 1600
     persists: float = 0.01
     removed: bool = False
-    silent: bool = False
-    garbled: bool = False
-    oversized: bool = False
-    missing: frozenset[str] = frozenset()
     id: str = "049D"
     arm: Arm = field(default_factory=Arm)
     messages: list[dict[str, Any]] = field(default_factory=list)
@@ -84,13 +77,8 @@ class InverseService:
             "state": {"orientation": DOWN, "buttons": {"a": False, "b": False, "c": False}, "hall": 16},
             "status": {"connected": True, "awake": True, "ready": True},
         }
-        whole = {
-            "session_id": 7,
-            "inverse3": [] if self.removed else [arm],
-            "verse_grip": [],
-            "wireless_verse_grip": [grip],
-        }
-        return json.dumps({key: value for key, value in whole.items() if key not in self.missing})
+        arms = [] if self.removed else [arm]
+        return json.dumps({"session_id": 7, "inverse3": arms, "verse_grip": [], "wireless_verse_grip": [grip]})
 
     def obey(self, message: dict[str, Any]) -> bool:
         """Executes a command. Returns False if it is refused."""
@@ -126,10 +114,8 @@ class InverseService:
                     continue
                 if not self.obey(json.loads(text)):
                     await client.close(1008, f"set_cursor_force takes {self.takes!r}")
-                elif self.oversized:
-                    await client.send(" " * 1_000_000)
-                elif not self.silent:
-                    await client.send('{"inverse3":[{' if self.garbled else self.state())
+                else:
+                    await client.send(self.state())
         except websockets.ConnectionClosed:
             pass
         finally:
@@ -182,23 +168,10 @@ class Running:
         self._thread.join()
 
 
-async def _forever(service: InverseService, port: int) -> None:
-    server = await service.start(port)
-    print(
-        f"a simulated Inverse Service {service.version} at ws://127.0.0.1:{port}, takes {service.takes!r}", flush=True
-    )
-    await server.serve_forever()
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--port", type=int, default=10001)
-    parser.add_argument("--version", default="3.5.2")
-    parser.add_argument("--takes", choices=("vector", "values"), default="vector")
-    parser.add_argument("--strict", action="store_true", help="close on the other key")
-    given = parser.parse_args()
-    asyncio.run(_forever(InverseService(given.version, given.takes, given.strict), given.port))
+async def main() -> None:
+    """At the usual port, for other clients."""
+    await (await InverseService().start(10001)).serve_forever()
 
 
 if __name__ == "__main__":
-    main()
+    asyncio.run(main())

@@ -46,29 +46,6 @@ def test_each_generation_of_the_protocol_is_opened_with_its_own_key(version, tak
     assert largest <= 0.05  # nobody feels that it was opened
 
 
-@pytest.mark.parametrize("strict", [True, False])
-def test_a_service_that_wants_the_other_key_is_refused_in_words(strict):
-    with fake.Running(fake.InverseService("3.5.0", "values", strict=strict)) as url:
-        words = "takes 'values'" if strict else "did not take a force by"
-        with pytest.raises(_core.DeviceError, match=words):
-            _core.open_device("haply", library=url)
-
-
-@pytest.mark.parametrize("fault", ["removed", "silent", "garbled", "oversized"])
-def test_after_a_fault_the_arm_is_idle_and_the_trouble_is_in_words(fault):
-    service = fake.InverseService()
-    with fake.Running(service) as url:
-        device = fast_enough(url)
-        loop = _core.ServoLoop(device, paper_scene())
-        loop.start()
-        wait_until(lambda: loop.report()["ticks"] > 20 or device.trouble())
-        setattr(service, fault, True)
-        wait_until(lambda: device.trouble())
-        assert service.idle.wait(PATIENCE_S)
-        assert service.arm.force == [0, 0, 0]
-        loop.stop()
-
-
 def test_after_a_stop_it_is_the_same_arm_again_or_none():
     service = fake.InverseService()
     with fake.Running(service) as url:
@@ -97,24 +74,6 @@ def paper_scene():
 
     wall = PlacedMembrane("wall", Membrane(570, 0.41, 0.2, 1e-3), [0, 0, 0], [0, -1, 0])
     return Scene("K06", Needle(1.08e-3, 0.28), Coupling(400, 1), [wall])
-
-
-def test_the_list_of_devices_says_what_the_service_has(monkeypatch):
-    def haply():
-        return next(status for status in _core.enumerate_devices() if status["backend"] == "haply")
-
-    service = fake.InverseService()
-    with fake.Running(service) as url:
-        monkeypatch.setenv("PUNCTURA_INVERSE_URL", url)
-        assert haply()["state"] == "available"
-        assert haply()["devices"] == ["049D"]
-        service.removed = True
-        assert haply()["state"] == "no_device"
-        service.missing = frozenset({"inverse3", "wireless_verse_grip"})
-        assert haply()["state"] == "no_device"
-        assert not service.messages  # it only looked
-    assert haply()["state"] == "library_not_found"
-    assert url in haply()["detail"]
 
 
 def test_the_simulated_service_keeps_to_the_contract_of_one_state_a_message():

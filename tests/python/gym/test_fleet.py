@@ -9,8 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import punctura as pn
 import pytest
-from punctura._core import Fleet, simd_instructions
-from punctura.live import Fault
+from punctura._core import Fleet
 from punctura.simulation import Experiment, Target
 
 SCENE = pn.load_scene("k06-fig10")
@@ -47,31 +46,6 @@ def test_a_trial_is_an_experiment_of_the_package():
     made = fleet(1).step([0.0], 1600)
     ticks = Experiment(SCENE, Target(START), axis=AXIS, seed=0).run(1.0)
     assert made["travel"][0] == pytest.approx(np.dot(ticks.position[-1] - START, AXIS), abs=1e-12)
-
-
-def test_the_results_do_not_depend_on_the_instruction_set():
-    speeds = np.linspace(-0.01, 0.03, 40)
-    fleets = {name: fleet(40, instructions=name) for name in simd_instructions()}
-    for _ in range(8):
-        steps = {name: made.step(speeds, 150) for name, made in fleets.items()}
-        for step in steps.values():
-            for name, column in step.items():
-                np.testing.assert_array_equal(column, steps["portable"][name])
-    assert {name: made.in_lanes.all() for name, made in fleets.items()} == {name: name != "portable" for name in fleets}
-    assert not fleets["portable"].in_lanes.any() and steps["portable"]["highest_force"].max() > 0.3
-
-
-def test_a_trial_that_faults_is_computed_alone_from_then_on():
-    made, alone = fleet(5), fleet(5, instructions="portable")
-    for speed in ([0.01] * 5, [0.01, 0.01, 1e4, 0.01, 0.01], [0.01] * 5):
-        step, expected = made.step(speed, 90), alone.step(speed, 90)
-        for name, column in step.items():
-            np.testing.assert_array_equal(column, expected[name])
-    assert list(step["fault"]) == [0, 0, Fault.position_jump.value, 0, 0]
-    if simd_instructions()[0] != "portable":
-        assert list(made.in_lanes) == [True, True, False, True, True]
-        made.place(2, SCENE, START, seed=2)
-        assert made.in_lanes.all()
 
 
 def test_wrong_calls_are_refused_and_make_no_tick():

@@ -69,24 +69,6 @@ def test_a_wide_scene_is_read_in_si_and_saved_again(scene, tmp_path):
     assert scene.with_values({"membrane[1].profile[2].lower": -1.0}).membranes[1].tissue.profile[2][1] == -1.0
 
 
-def test_the_first_insertion_is_harder_than_the_second(scene):
-    insertion = Insertion(scene.replace(relaxation=[], membranes=scene.membranes[:1]))
-    depth = np.concatenate([np.linspace(-1e-3, 9e-3, 2400), np.linspace(9e-3, -4e-3, 2400)])
-    force = insertion.run(np.outer(np.tile(depth, 2), DOWN), DOWN).force[:, 1]
-    first, second = force[:2400], force[4800:7200]
-    assert first.max() - second.max() > 0.2  # the cutting, and a part of the grip: the set
-    assert second[-1] == pytest.approx(0.75 * first[-1], rel=0.01)  # the shaft in the hole
-
-
-def test_the_force_of_a_hold_relaxes(scene):
-    insertion = Insertion(scene)
-    insertion.run(np.outer(np.linspace(-1e-3, 12e-3, 2000), DOWN), DOWN)
-    insertion.run(np.outer(np.linspace(12e-3, 11.5e-3, 100), DOWN), DOWN)
-    held = insertion.run(np.tile(np.outer([11.5e-3], DOWN), (8000, 1)), DOWN).force[:, 1]
-    assert abs(held[-1] - held[200]) > 0.005
-    assert abs(held[-1] - held[-400]) < 0.1 * abs(held[-1] - held[200])
-
-
 def test_events_and_curves_know_the_law(scene):
     wall, profile = crossing(scene, 0, 1.0), crossing(scene, 1, 1.0)
     assert wall.through == pytest.approx(3.5e-3) and profile.peak == pytest.approx(2.7e-3, abs=0.5e-3)
