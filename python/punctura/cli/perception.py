@@ -29,7 +29,7 @@ Out = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Observed = Annotated[
     str,
-    typer.Option("--observer", help="Some of weber=0.1,noise=0.02,masking=0,bias=0,lapse=0.02,criterion=0.1."),
+    typer.Option("--observer", help="Some of weber=0.1,noise=0.02,bias=0,lapse=0.02,criterion=0.1."),
 ]
 Seed = Annotated[int, typer.Option(min=0, help="Of the observers.")]
 
@@ -132,9 +132,9 @@ def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
 
 
 def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
-    from punctura.perception.report import json_of, report_of_folder
+    from punctura.perception.report import json_of, write_report
 
-    found = report_of_folder(protocol, folder)
+    found = write_report(protocol, folder)
     if as_json:
         typer.echo(json_of(found), nl=False)
         return
@@ -220,9 +220,9 @@ def delete(
     protocol: File, participant: Annotated[str, typer.Argument(help="Pseudonym.", metavar="PSEUDONYM")], out: Out = None
 ) -> None:
     """Deletes a participant's session and recordings, and the tables and the report that contain them."""
-    from punctura.perception.report import forget
+    from punctura.perception import delete_participant
 
-    for path in forget(_folder(protocol, out, there=True), participant):
+    for path in delete_participant(_folder(protocol, out, there=True), participant):
         typer.echo(f"deleted {path}")
 
 

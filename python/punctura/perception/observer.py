@@ -16,48 +16,45 @@ from punctura.perception.psychometric import Array, strongest
 from punctura.perception.session import Session
 from punctura.perception.stimulus import Felt, simulated
 
-REALISATIONS = 8  # of the hand's randomness, for each stimulus
-
 
 @dataclass(frozen=True)
 class Observer:
     """How a simulated person judges. Each interval is felt as its judged quantity plus normal noise.
 
-    Its standard deviation is that of `noise`, `weber` times the quantity and `masking` times the largest force of the
-    interval, together. The interval that is felt as the strongest is chosen; "yes" if it is felt as more than
-    `criterion`. Without a `criterion` it is half of the easiest level's. A rating has one more point for each
-    `criterion`, by default an eighth.
+    Its standard deviation is that of `noise` and of `weber` times the quantity, together. The interval that is felt as
+    the strongest is chosen; "yes" if it is felt as more than `criterion`. Without a `criterion` it is half of the
+    easiest level's. A rating has one more point for each `criterion`, by default an eighth.
     """
 
     weber: float = 0.1
     noise: float = 0.0  # N
-    masking: float = 0.0
     bias: float = 0.0  # N, added to the first of several intervals
     lapse: float = 0.02  # share of answers by chance
     criterion: float | None = None  # N
 
     def __post_init__(self) -> None:
         """Raises ValueError."""
-        for key, most in (("weber", 1e6), ("noise", 1e6), ("masking", 1e6), ("lapse", 1.0)):
+        for key, most in (("weber", 1e6), ("noise", 1e6), ("lapse", 1.0)):
             if not 0 <= getattr(self, key) <= most:
                 raise ValueError(f"{key} must be from 0 to {most:g}, not {getattr(self, key):g}")
-        if not self.weber + self.noise + self.masking > 0:
-            raise ValueError("give at least one of weber, noise and masking: without noise there is no threshold")
+        if not self.weber + self.noise > 0:
+            raise ValueError("give weber or noise: without either there is no threshold")
         if not np.isfinite([self.bias, self.criterion or 0.0]).all():
             raise ValueError("bias and criterion must be finite numbers")
 
 
 class Senses:
-    """What is felt of each stimulus of a protocol, several times with another seed of the hand; each computed once."""
+    """What is felt of each stimulus of a protocol, with several seeds of the hand; each computed once."""
 
-    def __init__(self, protocol: Protocol) -> None:
-        self.protocol = protocol
+    def __init__(self, protocol: Protocol, hands: int = 16) -> None:
+        """hands: the more, the better is known what is known: to 3 % with 8, to 0.7 % with 64 (right answers)."""
+        self.protocol, self.hands = protocol, hands
         self.known: dict[int, list[Felt]] = {}  # by the id of the stimulus
 
     def __call__(self, stimulus: Stimulus) -> list[Felt]:
         key, membrane = id(stimulus), self.protocol.membrane
         if key not in self.known:
-            self.known[key] = [simulated(stimulus.scene, membrane, seed) for seed in range(REALISATIONS)]
+            self.known[key] = [simulated(stimulus.scene, membrane, seed) for seed in range(self.hands)]
         return self.known[key]
 
 
@@ -75,7 +72,7 @@ class Simulation:
     def answer(self, trial: Trial, seed: int) -> tuple[str, list[Felt]]:
         """The answer, and what was felt in each interval. The same seed and trial give the same answer."""
         random = np.random.default_rng([seed, trial.number])
-        felt = [self.senses(one)[int(random.integers(REALISATIONS))] for one in trial.intervals]
+        felt = [self.senses(one)[int(random.integers(self.senses.hands))] for one in trial.intervals]
         names = list(self.protocol.answers)
         if random.random() < self.observer.lapse and names:
             return names[int(random.integers(len(names)))], felt
@@ -98,9 +95,8 @@ class Simulation:
 
     def _judged_of(self, several: Sequence[Felt]) -> tuple[Array, Array]:
         """What is judged of each, and the standard deviation of what is felt of it."""
-        judged, peak = (np.array([float(getattr(one, key)) for one in several]) for key in (self._judged, "peak"))
-        given = self.observer
-        return judged, np.hypot(np.hypot(given.noise, given.weber * judged), given.masking * peak)
+        judged = np.array([float(getattr(one, self._judged)) for one in several])
+        return judged, np.hypot(self.observer.noise, self.observer.weber * judged)
 
     def _sign(self, shown: Stimulus, other: Stimulus) -> int:
         """1 if the question seeks the strongest interval; -1 for the weakest: the levels only weaken the reference."""

@@ -1,4 +1,4 @@
-"""The report of an experiment: one page, report.md, with a picture of each function."""
+"""The report of an experiment: one page with a picture of each function, and all trials as one tidy table."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pyarrow as pa
 
-from punctura.files.whole_file import private_folder, write_whole
+from punctura.files.whole_file import write_whole
 from punctura.perception.analysis import (
     LEVEL,
     SHARES,
@@ -23,60 +24,63 @@ from punctura.perception.analysis import (
     analyse,
     answers_of,
     belief_of,
+    felt_level,
 )
+from punctura.perception.course import counted
 from punctura.perception.protocol import Protocol
-from punctura.perception.session import (
-    SessionError,
-    check_header,
-    check_lines,
-    delete_participant,
-    read_session,
-    sessions,
-)
-from punctura.perception.table import TABLES, save_tables
+from punctura.perception.session import TABLES, SessionError, check_header, check_lines, read_session, sessions
 from punctura.results import JsonObject
+from punctura.ticks.files import save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_PANELS = 12
-WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)
+# Column, type, unit, meaning. "comparison" is the interval that has the level of the trial.
+DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
+    ("participant", pa.string(), "", "pseudonym"),
+    ("participant_number", pa.int64(), "", "from 0, decides the order of the trials"),
+    ("trial", pa.int64(), "", "number of the trial in the session, from 0, practice included"),
+    ("block", pa.int64(), "", "from 0"),
+    ("kind", pa.string(), "", "practice, trial or catch; only trial is in the fit"),
+    ("level", pa.float64(), "that of the variable", "planned level of the comparison"),
+    ("felt_level", pa.float64(), "that of the variable", "the level as it was felt, if the variable is in newtons"),
+    ("position", pa.int64(), "", "interval of the comparison, from 0"),
+    ("answer", pa.string(), "", "as the task names it"),
+    ("counted", pa.bool_(), "", "whether the answer is yes, the comparison or right; empty for numbers and settings"),
+    ("drop_N", pa.float64(), "N", "felt drop at the pop of the judged membrane, in the comparison"),
+    ("peak_N", pa.float64(), "N", "largest felt force of the comparison"),
+    ("roughness_N", pa.float64(), "N", "rms of what changes faster than 20 ms before the pop, in the comparison"),
+    ("speed_m_per_s", pa.float64(), "m/s", "mean speed of the needle inwards, in the comparison"),
+    ("force_scale", pa.float64(), "", "how much of the model's force the device gave"),
+    ("reference_drop_N", pa.float64(), "N", "felt drop, mean of the other intervals; empty without them"),
+    ("reference_peak_N", pa.float64(), "N", "largest felt force, mean of the other intervals; empty without them"),
+    ("recordings", pa.string(), "", "file of the trial, with all its intervals"),
+    ("time", pa.string(), "", "of the answer, ISO 8601, UTC"),
+)  # fmt: skip
+_OF_FELT = {"drop_N": "drop", "peak_N": "peak", "roughness_N": "roughness", "speed_m_per_s": "speed"}
 
 
-def write_report(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]], folder: Path) -> Analysis:
-    """Writes report.md, its picture, results.json and the tables. sessions: lines by pseudonym, the header first."""
-    private_folder(folder)
-    found = analyse(protocol, {name: lines[1:] for name, lines in sessions.items()})
-    save_tables(protocol, sessions, folder)
-    write_whole(folder / "results.json", json_of(found).encode(), private=True)
-    picture = _draw(protocol, found, sessions)
-    if picture:
-        write_whole(folder / "functions.svg", picture, private=True)
-    write_whole(folder / "report.md", _text(protocol, found, bool(picture)).encode(), private=True)
-    return found
+def write_report(protocol: Protocol, folder: Path) -> Analysis:
+    """Analyses all sessions of a folder; writes report.md, its picture, results.json and the tables beside them.
 
-
-def report_of_folder(protocol: Protocol, folder: Path) -> Analysis:
-    """Analyses all sessions of a folder. Raises SessionError if there is none, or one of another protocol."""
+    Raises SessionError if there is none, or one of another protocol.
+    """
     found = {}
     for path in sessions(folder):
-        lines = read_session(path)
-        if lines:  # a kill may have left a file without its first line
+        if lines := read_session(path):  # a kill may have left a file without its first line
             check_header(lines[0], protocol, path)
             check_lines(lines[1:], protocol, path)
             found[path.stem] = lines
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
-    return write_report(protocol, found, folder)
-
-
-def forget(folder: Path, participant: str) -> list[Path]:
-    """Deletes a participant's session, recordings, and all that was computed from them. Raises SessionError."""
-    deleted = delete_participant(folder, participant)
-    computed = [path for name in WRITTEN if (path := folder / name).exists()]
-    for path in computed:
-        path.unlink()
-    return deleted + computed
+    analysis = analyse(protocol, {name: lines[1:] for name, lines in found.items()})
+    _save_tables(_table(protocol, found), folder)
+    write_whole(folder / "results.json", json_of(analysis).encode(), private=True)
+    if picture := _draw(protocol, analysis, found):
+        write_whole(folder / "functions.svg", picture, private=True)
+    write_whole(folder / "report.md", _text(protocol, analysis, bool(picture)).encode(), private=True)
+    return analysis
 
 
 def words(one: Estimate | None) -> str:
@@ -161,11 +165,9 @@ def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[J
             panel = figure.add_subplot(down, across, number)
             _panel(panel, protocol, one, answers_of(protocol, sessions[one.participant][1:]))
             panel.set_title(one.participant)
-        variable, counted = _label(protocol), _counted(protocol)
-        counted = counted if protocol.rates or protocol.adjusts else f"share of {counted}"
-        across_text, up_text = (counted, variable) if protocol.adjusts else (variable, counted)
-        figure.supxlabel(across_text, size="medium")
-        figure.supylabel(up_text, size="medium")
+        texts = [_label(protocol), "share of " * (not (protocol.rates or protocol.adjusts)) + _counted(protocol)]
+        figure.supxlabel(texts[protocol.adjusts], size="medium")
+        figure.supylabel(texts[not protocol.adjusts], size="medium")
         data = io.BytesIO()
         figure.savefig(data, format="svg", metadata={"Date": None})
     return data.getvalue()
@@ -218,3 +220,33 @@ def _counted(protocol: Protocol) -> str:
     if protocol.rates or protocol.adjusts:
         return "points" if protocol.rates else "setting"
     return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right answers"
+
+
+def _table(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]]) -> pa.Table:
+    rows = [_row(protocol, lines[0], line) for lines in sessions.values() for line in lines[1:]]
+    return pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
+
+
+def _row(protocol: Protocol, header: JsonObject, line: JsonObject) -> JsonObject:
+    lacks = protocol.rates or protocol.adjusts
+    felt = list(line["felt"])
+    mine = felt.pop(int(line["position"]))
+    row = {name: line[name] for name in ("trial", "block", "kind", "level", "position", "answer", "time")}
+    row |= {
+        "participant": header["participant"],
+        "participant_number": header["number"],
+        "felt_level": felt_level(protocol, line)[0] if protocol.in_newtons else None,
+        "counted": None if lacks else bool(counted(protocol, int(line["position"]), str(line["answer"]))),
+        "force_scale": mine["scale"],
+        "recordings": ";".join(line.get("recordings", ())),
+    }
+    row |= {name: mine[key] for name, key in _OF_FELT.items()}
+    for name in ("drop", "peak"):
+        row[f"reference_{name}_N"] = float(np.mean([one[name] for one in felt])) if felt else None
+    return row
+
+
+def _save_tables(table: pa.Table, folder: Path) -> None:
+    rows = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
+    for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(rows)), strict=True):
+        save(content, folder / name, private=True)

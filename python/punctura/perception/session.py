@@ -21,6 +21,8 @@ from punctura.results import JsonObject
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
+TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
+WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)  # by the analysis
 _HEADER = {"participant", "number", "digest", "version"}
 _LINE = {"trial", "block", "kind", "level", "position", "answer", "felt", "time"}
 
@@ -209,16 +211,20 @@ def recordings(folder: Path, participant: str, trial: str = r"\d{4,}") -> list[P
 
 
 def delete_participant(folder: Path, participant: str) -> list[Path]:
-    """Deletes all that the folder has of a participant; returns the paths. Raises SessionError if there is nothing."""
+    """Deletes all that the folder has of a participant, and what was computed from it; returns the paths.
+
+    Raises SessionError if there is nothing.
+    """
     path = folder / f"{participant}{SUFFIX}"
     if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
         raise SessionError(f"{folder} has no participant {participant!r}")
     names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
     names |= {file.name for file in recordings(folder, participant)}
-    found = [file for name in sorted(names) if Path(name).name == name and (file := folder / name).is_file()]
-    for file in [*found, path]:
+    names = {name for name in names if Path(name).name == name} | {*WRITTEN}
+    found = [file for name in [*sorted(names), path.name] if (file := folder / name).is_file()]
+    for file in found:
         file.unlink()
-    return [*found, path]
+    return found
 
 
 def _header(protocol: Protocol, participant: str, number: int, simulated: bool) -> JsonObject:

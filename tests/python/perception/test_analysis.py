@@ -92,8 +92,8 @@ def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row
     """Prints the rows of the table in docs/perception.md."""
     title, text, method, trials, observer = row
     loaded = load_protocol(written(tmp_path, text))
-    protocol = replace(loaded, file=loaded.file.model_copy(update={"method": method}))
-    for one in coverage(with_trials(protocol, trials), observer, SESSIONS, SEED).values():
+    protocol = with_trials(replace(loaded, file=loaded.file.model_copy(update={"method": method})), trials)
+    for one in coverage(protocol, observer, SESSIONS, SEED, Senses(protocol, 64)).values():
         print(
             f"| {title} | {method}, {one.trials} | {one.what} | {one.covered:.1%} | {one.bias:+.1%} "
             f"| {one.width:.3g} | {one.without:.1%} |"
@@ -131,7 +131,7 @@ def test_a_bias_towards_an_interval_is_neither_a_shift_nor_noise(senses: dict[st
 def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> None:
     """Hands that feel less than was planned, and each time something else."""
     protocol = with_trials(load_protocol(written(tmp_path, SOLVED)), 120)
-    senses, random = Senses(protocol), np.random.default_rng(1)
+    senses, random = Senses(protocol, 8), np.random.default_rng(1)
     for shown in (*protocol.stimuli, protocol.references[0]):
         felt = [0.9 * shown.level + 0.02 * random.standard_normal() for _ in range(8)]
         senses.known[id(shown)] = [replace(shown.felt, drop=drop) for drop in felt]

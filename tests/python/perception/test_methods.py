@@ -12,8 +12,7 @@ import pytest
 from protocols import ADJUST, COMPARES, RIGHT, YES, written
 from punctura.perception import Observer, Protocol, Simulation, load_protocol
 from punctura.perception.analysis import person
-from punctura.perception.course import Course, Trial
-from punctura.perception.methods import Quest, Staircase
+from punctura.perception.course import Course, Quest, Staircase, Trial
 from punctura.perception.psychometric import QUEST, Grid
 from punctura.perception.report import words
 
@@ -53,11 +52,10 @@ def test_a_staircase_stays_where_three_of_four_answers_are_right(load: Callable[
     random = np.random.default_rng(1)
     chances = np.linspace(0.55, 0.99, 8)  # of a right answer at each level
     method, seen = Staircase(load(RIGHT)), []
-    assert method.next() == 7
+    assert method.level == 7
     for _ in range(4000):
-        level = method.next()
-        seen.append(bool(random.random() < chances[level]))
-        method.add(level, seen[-1])
+        seen.append(bool(random.random() < chances[method.level]))
+        method.add(seen[-1])
     assert np.mean(seen[100:]) == pytest.approx(0.75, abs=0.02)
 
 
@@ -74,9 +72,9 @@ def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str
                 mass = float(chance @ weight)
                 after = np.array([(chance * weight)[grid.place == place].sum() for place in places]) / mass
                 entropies[i] -= mass * float(after @ np.log(np.maximum(after, 1e-300)))
-        level = method.next()
+        level = method.level
         assert entropies[level] == pytest.approx(min(entropies), abs=1e-9)
-        method.add(level, counted)
+        method.add(counted)
         weight = weight * (p[level] if counted else 1 - p[level])
         weight /= weight.sum()
 
