@@ -2,28 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
-from punctura.perception.analysis import analyse, person
+from punctura.perception.analysis import Estimate, Person, analyse, person
 from punctura.perception.observer import Observer, Senses, Simulation
 from punctura.perception.protocol import Protocol
 from punctura.perception.psychometric import Array
 from punctura.progress import Report
 
+NO_NUMBER = Estimate(np.nan, np.nan, np.nan)
 
-@dataclass(frozen=True)
-class Coverage:
+
+class Coverage(NamedTuple):
     """Intervals of many sessions of one observer, for whom the number is known."""
 
-    what: str  # threshold, jnd or dprime, the d' of each level
-    without: float  # share of the sessions, or of the levels, that gave no number
     covered: float  # share of the intervals that hold the known number
     bias: float  # mean of the numbers less what is known, as a share of it
     width: float  # mean of the intervals
-    trials: int  # scored, of one session
+    without: float  # share of the sessions, or of their levels, that gave no number
 
 
 def with_trials(protocol: Protocol, trials: int) -> Protocol:
@@ -37,41 +38,36 @@ def with_trials(protocol: Protocol, trials: int) -> Protocol:
 
 
 def coverage(
-    protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None,
-    report: Report = lambda share: None,
-) -> dict[str, Coverage]:  # fmt: skip
-    """By threshold, jnd and dprime, where the task has one. Raises ValueError if one is outside the levels."""
+    protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None
+) -> dict[str, Coverage]:
+    """By threshold, jnd and dprime, that of each level. Raises ValueError if one is outside the levels."""
     simulation = Simulation(protocol, observer, senses)
     set_equal = protocol.reference if protocol.adjusts else None  # what a setting seeks
-    truth: dict[str, list[float]] = {"threshold": [simulation.threshold() if set_equal is None else set_equal]}
-    if protocol.reference is not None and not protocol.adjusts:
+    truth = {"threshold": [simulation.threshold() if set_equal is None else set_equal]}
+    if protocol.compares:
         truth["jnd"] = [simulation.jnd()]
-    planned = protocol.file.method == "constant"
-    if planned and (protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch)):
+    if protocol.file.method == "constant" and (protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch)):
         truth["dprime"] = [simulation.dprime(i) for i in range(len(protocol.levels))]
-    rows: dict[str, list[tuple[float, ...]]] = {what: [] for what in truth}
-    for i in range(sessions):
-        one = person(protocol, "", simulation.run(i, seed + i))
-        dprimes = {each.level: each.dprime for each in one.detection}
-        found = {"threshold": [one.threshold], "jnd": [one.jnd], "dprime": [*map(dprimes.get, protocol.levels)]}
-        for what, known in truth.items():
-            pairs = zip(known, found[what], strict=True)
-            rows[what] += [(true, *each) for true, each in pairs if each is not None and np.isfinite(true)]
-        report((i + 1) / sessions)
-    return {
-        what: _coverage(what, np.array(row).reshape(-1, 4), sessions * int(np.isfinite(truth[what]).sum()), one.trials)
-        for what, row in rows.items()
-    }
+    people = [person(protocol, "", simulation.run(i, seed + i)) for i in range(sessions)]
+    return {what: _coverage(np.array(known), [_numbers(protocol, one, what) for one in people])
+            for what, known in truth.items()}  # fmt: skip
 
 
-def _coverage(what: str, rows: Array, asked: int, trials: int) -> Coverage:
-    true, value, low, high = rows.T
-    known = np.isfinite(value)
-    bias = (np.sign(true) * (value - true))[known].sum() / np.abs(true[known]).sum() if known.any() else np.nan
-    covered = float(np.mean((low <= true) & (true <= high))) if len(rows) else np.nan
-    wide = (high - low)[known & np.isfinite(high - low)]
-    width = float(wide.mean()) if len(wide) else np.nan
-    return Coverage(what, 1 - len(rows) / max(asked, 1), covered, float(bias), width, trials)
+def _numbers(protocol: Protocol, one: Person, what: str) -> list[Estimate]:
+    if what != "dprime":
+        return [getattr(one, what) or NO_NUMBER]
+    found = {each.level: each.dprime for each in one.detection}
+    return [found.get(level, NO_NUMBER) for level in protocol.levels]
+
+
+def _coverage(known: Array, numbers: list[list[Estimate]]) -> Coverage:
+    value, low, high = np.moveaxis(np.array(numbers)[:, np.isfinite(known)], 2, 0)
+    true = np.broadcast_to(known[np.isfinite(known)], value.shape)
+    given, one = ~np.isnan(low), np.isfinite(value)  # an interval may have no end, and then no number in it
+    wide = (high - low)[np.isfinite(high - low)]
+    bias = (np.sign(true) * (value - true))[one].sum() / max(np.abs(true[one]).sum(), 1e-300)
+    covered = ((low <= true) & (true <= high))[given].sum() / max(given.sum(), 1)
+    return Coverage(float(covered), float(bias), float(wide.sum() / max(wide.size, 1)), float(1 - given.mean()))
 
 
 @dataclass(frozen=True)
@@ -87,36 +83,28 @@ class PowerRow:
 
 def power(
     protocol: Protocol, observer: Observer, trials: Sequence[int], people: Sequence[int], sessions: int, seed: int,
-    between: float = 0.2, report: Callable[[float], None] = lambda share: None,
+    between: float = 0.2, report: Report = lambda share: None,
 ) -> list[PowerRow]:  # fmt: skip
     """sessions: simulated experiments a row. between: standard deviation of the people's Weber fraction and noise,
     as a share of the observer's."""
-    senses = Senses(protocol)
-    rows = []
-    for n, count in enumerate(trials):
-        sized = with_trials(protocol, count)
-        for k, crowd in enumerate(people):
-            own, group, without = [], [], 0
-            for i in range(sessions):
-                random = np.random.default_rng([seed, count, crowd, i])
-                lines = {}
-                for j in range(crowd):
-                    factor = float(np.exp(between * random.standard_normal()))
-                    one = replace(observer, weber=observer.weber * factor, noise=observer.noise * factor)
-                    lines[f"P{j}"] = Simulation(sized, one, senses).run(j, int(random.integers(2**31)))
-                found = analyse(sized, lines)
-                own += [p.threshold.high - p.threshold.low for p in found.people if p.threshold is not None]
-                without += sum(p.threshold is None for p in found.people)
-                if found.threshold is not None:
-                    group.append(found.threshold.high - found.threshold.low)
-            rows.append(
-                PowerRow(
-                    trials=len(sized.levels) * (sized.file.trials.per_level or 0) or (sized.file.trials.total or 0),
-                    people=crowd,
-                    person_width=float(np.mean(own)) if own else float("nan"),
-                    mean_width=float(np.mean(group)) if group else float("nan"),
-                    without=without / (sessions * crowd),
-                )
-            )
-            report((n * len(people) + k + 1) / (len(trials) * len(people)))
+    senses, rows = Senses(protocol), list[PowerRow]()
+    for count, crowd in product(trials, people):
+        sized, found = with_trials(protocol, count), []
+        for i in range(sessions):
+            random, lines = np.random.default_rng([seed, count, crowd, i]), {}
+            for j in range(crowd):
+                factor = float(np.exp(between * random.standard_normal()))
+                one = replace(observer, weber=observer.weber * factor, noise=observer.noise * factor)
+                lines[f"P{j}"] = Simulation(sized, one, senses).run(j, int(random.integers(2**31)))
+            found.append(analyse(sized, lines))
+        own = [one.threshold for each in found for one in each.people]
+        scored = len(sized.levels) * (sized.file.trials.per_level or 0) or (sized.file.trials.total or 0)
+        widths = _width(own), _width([each.threshold for each in found])
+        rows.append(PowerRow(scored, crowd, *widths, without=own.count(None) / len(own)))
+        report(len(rows) / (len(trials) * len(people)))
     return rows
+
+
+def _width(found: Sequence[Estimate | None]) -> float:
+    widths = [one.high - one.low for one in found if one is not None]
+    return float(np.mean(widths)) if widths else float("nan")
