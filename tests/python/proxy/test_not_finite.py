@@ -1,10 +1,5 @@
 """A number that is not finite is rejected at the call and does not change the state."""
 
-import copy
-import signal
-import threading
-import time
-
 import numpy as np
 import punctura as pn
 import pytest
@@ -66,33 +61,3 @@ def test_on_a_line_the_argument_is_named_and_the_state_stays(bad):
     with pytest.raises(ValueError, match=r"p\[3\] must be finite"):
         touched.run([0, 0, 0, bad])
     assert np.array_equal(touched.run(depths()).force, clean.run(depths()).force)
-
-
-@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
-def test_a_copy_continues_independently_with_the_same_bits(copied):
-    first = line()
-    first.run(depths()[:1200])
-    second = copied(first)
-    forces = first.run(depths()[1200:]).force
-    assert np.array_equal(second.run(depths()[1200:]).force, forces)
-    for make in (space, insertion):
-        one = make()
-        one.run(positions()[:1200], DOWN)
-        other = copied(one)
-        assert np.array_equal(other.run(positions()[1200:], DOWN).force, one.run(positions()[1200:], DOWN).force)
-
-
-def test_ctrl_c_is_heard_during_a_long_run():
-    """Ten million ticks, which take seconds: the signal ends the call before they are made."""
-    proxy, p = line(), np.zeros(10_000_000)
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        sender = threading.Timer(0.05, signal.raise_signal, [signal.SIGINT])
-        sender.start()
-        with pytest.raises(KeyboardInterrupt):
-            for _ in range(1000):
-                proxy.run(p)
-                time.sleep(0)
-        sender.join()
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -3,7 +3,6 @@
 import copy
 import pickle
 import threading
-import warnings
 from array import array
 
 import numpy as np
@@ -65,14 +64,6 @@ def test_peek_gives_what_a_step_would_and_changes_nothing(model):
         model.peek(*((float("nan"),) if isinstance(model, Proxy1d) else ([0, float("nan"), 0], DOWN)))
 
 
-@pytest.mark.parametrize("change", [{"stiffness": 571.0}, {"thickness": 0.9e-3}, {"friction": 0.21}])
-def test_a_state_of_another_membrane_is_refused(change):
-    model = MAKERS["space"]()
-    other = Proxy3d(NEEDLE, MEMBRANE.replace(**change), [0, 0, 0], [0.1, -1, 0], COUPLING, T)
-    with pytest.raises(ValueError, match="other parameters"):
-        model.state = other.state
-
-
 def test_during_run_no_other_thread_can_use_the_object(model):
     run(model, slice(0, 1300))
     kept, copied = model.state, copy.copy(model)
@@ -115,13 +106,6 @@ def test_a_position_beyond_1000_km_is_refused(model):
     with pytest.raises(ValueError, match="within 1000 km"):
         model.run(far, *([] if isinstance(model, Proxy1d) else [DOWN]))
     assert model.state == before
-
-
-def test_a_masked_element_is_no_number():
-    hidden = np.ma.array([0, -2e-3, 0], mask=[0, 1, 0])
-    with pytest.raises((TypeError, ValueError)), warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        Insertion(scene()).step(hidden, DOWN)
 
 
 def test_laws_are_values():
