@@ -8,7 +8,7 @@ import { Membranes } from "../../src/scene/membranes.ts";
 import { Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import type { Theme } from "../../src/scene/theme.ts";
 import type { SceneView } from "../../src/wire/messages.ts";
-import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
+import { plainScene } from "../support/plain_scene.ts";
 
 const theme = {
   dark: false,
@@ -19,7 +19,7 @@ const theme = {
 const STICKING = 1;
 const TILTED = new Vector3(Math.sin(Math.PI / 3), -Math.cos(Math.PI / 3), 0); // 30 degrees to the skin
 
-const sheets = fakeScene(fakeMembranes());
+const sheets = plainScene;
 const block: SceneView = {
   ...sheets,
   membranes: sheets.membranes.map((m, i) => ({ ...m, look: i === 0 ? "skin" : "vein wall", behind: "fat" })),

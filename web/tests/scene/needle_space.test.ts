@@ -4,10 +4,10 @@ import { BARRED, Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import { Level } from "../../src/scene/needle_level.ts";
 import { needleLook } from "../../src/scene/needle_look.ts";
 import { atTip } from "../../src/scene/needle_space.ts";
-import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
+import { plainScene } from "../support/plain_scene.ts";
 
 const SLIDING_IN = 2;
-const scene = fakeScene(fakeMembranes()); // skin, front wall 0.4 mm thick, back wall
+const scene = plainScene; // skin, front wall 0.4 mm thick, back wall
 
 function moment(...states: readonly (readonly [phase: number, depth: number])[]): Moment {
   const made = new Moment();

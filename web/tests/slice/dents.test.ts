@@ -5,11 +5,11 @@ import { skinFrame } from "../../src/scene/probe.ts";
 import { Denter, type Dents, displaced } from "../../src/slice/dents.ts";
 import { tissueOf } from "../../src/slice/layers.ts";
 import { lumenHeight } from "../../src/slice/words.ts";
-import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
+import { plainScene } from "../support/plain_scene.ts";
 
 const SLIDING_IN = 2;
 const down = new Vector3(0, -1, 0);
-const scene = fakeScene(fakeMembranes());
+const scene = plainScene;
 const skin = skinFrame(scene);
 const tissue = tissueOf(scene, skin);
 const dents = (moment: Moment): Dents => new Denter(skin, tissue, 15, 0.8).at(moment);

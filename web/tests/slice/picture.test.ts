@@ -5,9 +5,9 @@ import { planeOf, skinFrame } from "../../src/scene/probe.ts";
 import { Denter, type Dents } from "../../src/slice/dents.ts";
 import { tissueOf } from "../../src/slice/layers.ts";
 import { paintTissue, type Raster, shadowOf } from "../../src/slice/picture.ts";
-import { fakeMembranes, fakeScene } from "../support/fake_model.ts";
+import { plainScene } from "../support/plain_scene.ts";
 
-const scene = fakeScene(fakeMembranes());
+const scene = plainScene;
 const skin = skinFrame(scene);
 const tissue = tissueOf(scene, skin);
 const raster: Raster = { columns: 120, rows: 150, width: 12, depth: 15 };

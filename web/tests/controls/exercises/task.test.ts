@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { clockText, heldShare, showGoal } from "../../../src/controls/exercises/task.ts";
 import { App } from "../../../src/state/app.ts";
 import type { ExerciseOverview, ExerciseStatus, SceneView } from "../../../src/wire/messages.ts";
-import { FakeEngine } from "../../support/fake_engine.ts";
+import { FakeEngine } from "../support/fake_engine.ts";
 
 const membrane = (name: string, depth: number, thickness: number) => ({
   name,
@@ -39,7 +39,7 @@ test("the ring fills with the time held, and is empty without a goal to stay", (
 });
 
 test("the view gets the goal of the running exercise, and none of a blind one", () => {
-  const app = new App(new FakeEngine(0));
+  const app = new App(new FakeEngine(scene));
   app.live.scene.value = scene;
   const of = (name: string) => (name === "mine" ? (exercise as unknown as ExerciseOverview) : null);
   showGoal(app, of);
