@@ -16,7 +16,7 @@ digest() {
   local sum=sha256sum
   command -v $sum >/dev/null || sum="shasum -a 256"
   (cd "$root" && find "$@" -type f ! -path '*/__pycache__/*' ! -name '*.pyc' ! -path '*/node_modules/*' \
-    ! -path '*/studio/page/*' ! -path web/src/wire/messages.ts ! -path '*/support/schema.json' -print0 2>/dev/null |
+    ! -path '*/studio/page/*' ! -path web/src/wire/messages.ts ! -path '*/support/*.json' -print0 2>/dev/null |
     LC_ALL=C sort -z | xargs -0 $sum) | $sum | cut -c1-32
 }
 
