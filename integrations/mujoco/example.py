@@ -1,25 +1,19 @@
-"""A robot pushes a needle into a vein, feels the two pops, stops, and draws back. Writes out/robot.gif.
+"""A robot pushes a needle into a vein, feels the two pops, stops, and draws back.
 
-    python integrations/mujoco/example.py             with a video
-    python integrations/mujoco/example.py --no-video  only the table
+    python integrations/mujoco/example.py
 
 The robot knows the place of the skin and its own force sensor. It does not know where the vein is.
 """
 
 from __future__ import annotations
 
-import argparse
-import os
-import sys
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import punctura
 import punctura.mujoco
-
-os.environ.setdefault("MUJOCO_GL", "egl" if sys.platform == "linux" else "glfw")
-import mujoco
 
 HERE = Path(__file__).parent
 ANGLE = np.radians(30)  # of the needle to the skin
@@ -62,7 +56,7 @@ class Robot:
         return joints(self.way * ALONG)
 
 
-def insertion(model: Any, data: Any, each: Any) -> list[tuple[float, ...]]:
+def insertion(model: Any, data: Any) -> list[tuple[float, ...]]:
     """Runs the robot until the needle is out again. Rows: time s, way m, felt N, pops, depth in the vein m."""
     attached = punctura.mujoco.attach(model, punctura.load_scene("venipuncture"), needle="tip", tissue="phantom")
     robot, rows = Robot(), []
@@ -71,24 +65,13 @@ def insertion(model: Any, data: Any, each: Any) -> list[tuple[float, ...]]:
         data.ctrl[:] = robot.command(data.sensor("felt").data[2], model.opt.timestep)
         attached.step(data)
         rows.append((data.time, robot.way, robot.felt, robot.pops, attached.depths(data)[0][1]))
-        each(data, rows)
     return rows
 
 
 def main() -> None:
-    """Prints what the robot felt, and draws it."""
-    given = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    given.add_argument("--no-video", action="store_true")
-    given.add_argument("--out", type=Path, default=Path("out/robot.gif"))
-    options = given.parse_args()
+    """Prints what the robot felt."""
     model = mujoco.MjModel.from_xml_path(str(HERE / "robot.xml"))
-    data = mujoco.MjData(model)
-    video = None
-    if not options.no_video:
-        from video import Video
-
-        video = Video(model, options.out)
-    rows = np.array(insertion(model, data, video.look if video else lambda *_: None))
+    rows = np.array(insertion(model, mujoco.MjData(model)))
     for pop in (1, 2):
         time, way, _, _, depth = rows[np.argmax(rows[:, 3] >= pop)]
         print(
@@ -96,9 +79,6 @@ def main() -> None:
             f"depth behind the front of the vein's wall: {depth * 1e3:.1f} mm"
         )
     print(f"highest force {rows[:, 2].max():.2f} N; deepest {rows[:, 1].max() * 1e3:.1f} mm along the needle")
-    if video:
-        video.save()
-        print(f"wrote {options.out}")
 
 
 if __name__ == "__main__":

@@ -313,7 +313,7 @@ def test_a_saved_state_continues_with_the_same_bits_and_foreign_ones_change_noth
 
 def test_the_robot_of_the_example_feels_two_pops_and_ends_in_the_vein():
     example = Path(__file__).with_name("example.py")
-    done = subprocess.run([sys.executable, example, "--no-video"], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([sys.executable, example], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     pops = [line.split() for line in done.stdout.splitlines() if line.startswith("pop")]
     assert [words[1] for words in pops] == ["1", "2"]
