@@ -108,11 +108,6 @@ def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
     assert (done.returncode, done.stderr) == (1, sentence)
 
 
-def test_an_unknown_verb_is_a_usage_error(punctura):
-    done = punctura("fly")
-    assert done.status == 2 and "No such command 'fly'" in done.stderr and not done.stdout
-
-
 def test_scenes_lists_names_and_membranes(punctura):
     lines = punctura("scenes").stdout.splitlines()
     assert [line.split()[0] for line in lines] == scene_names()
@@ -221,11 +216,6 @@ READS_A_FILE = {
 def test_a_missing_file_is_named_and_is_a_usage_error(punctura, verb, here):
     done = punctura(*verb.split(), *READS_A_FILE[verb], "none.toml")
     assert done.status == 2 and "none.toml" in done.stderr and "Errno" not in done.stderr
-
-
-def test_missing_options_are_a_usage_error(punctura):
-    done = punctura("simulate", "k06-fig10")
-    assert done.status == 2 and "Missing option '--motion'" in done.stderr
 
 
 def writes_in(folder, pid):

@@ -15,7 +15,7 @@ from heed import heed_signals
 from punctura.studio import connections as rules
 from punctura.studio import gate
 from punctura.studio.client import StudioClient
-from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE, STRANGER_S
+from punctura.studio.limits import MOST_BUFFERED, REQUESTS_AT_ONCE
 from punctura.studio.wire.messages import Notice
 from waiting import PATIENCE_S, wait_until
 
@@ -163,18 +163,6 @@ def test_answers_that_nobody_reads_do_not_pile_up_and_end_their_connection(guard
                 raw.send(many)
             most = max(most, buffered(connection))
         assert MOST_BUFFERED < most < 2 * MOST_BUFFERED
-
-
-@pytest.mark.parametrize("begin", [b"", b"GET /api/schema HTTP/1.1\r\nHost:"])
-def test_silent_connections_are_ended_and_told_why(guarded, monkeypatch, begin):
-    now = [0.0]
-    monkeypatch.setattr(guarded.connections, "_clock", lambda: now[0])
-    with tcp(guarded) as raw:
-        raw.sendall(begin)
-        wait_until(lambda: guarded.connections.strangers)
-        now[0] = STRANGER_S
-        answer = everything(raw)
-        assert answer.startswith(b"HTTP/1.1 408 ") and answer.endswith(b".\n")
 
 
 def test_thirty_silent_connections_take_no_place_from_the_page(guarded, monkeypatch):
