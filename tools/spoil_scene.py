@@ -6,45 +6,11 @@ import random
 import re
 from collections.abc import Callable
 
+from punctura.scene.ready import scene_path
+
 # Valid scenes in different TOML notations.
 SEEDS = (
-    """
-name = "plain"
-
-[needle]
-diameter_mm = 1.08
-tip_angle_rad = 0.28
-direction = "stylus"
-
-[coupling]
-stiffness_N_per_mm = 0.4
-damping_Ns_per_mm = 0.001
-
-[servo]
-rate_hz = 1600
-low_pass_hz = 300
-solver = "exact"
-conditioning = "line_fit"
-encoder_step_mm = 0.055
-
-[[membrane]]
-name = "skin"
-stiffness_N_per_mm = 0.57
-precompression_N = 0.41
-friction = 0.2
-thickness_mm = 1.0
-point_mm = [0, 0, 0]
-inward_normal = [0, -1, 0]
-
-[[membrane]]
-name = "wall"
-stiffness_N_per_mm = 0.57
-precompression_N = 0
-friction = 0.1
-thickness_mm = 0
-point_mm = [0.0, -4e0, 0]
-inward_normal = [0, -2, 0.5]
-""",
+    scene_path("k06-fig12").read_text(encoding="utf-8"),
     """
 name = 'dotted and inline, \\ with "quotes"'
 needle.gauge = 19

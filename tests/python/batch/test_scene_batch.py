@@ -7,7 +7,6 @@ import pyarrow as pa
 import pytest
 from numpy.typing import NDArray
 from punctura import ConfigurationError, Insertion, batch, grid, load_scene
-from punctura._core import simd_instructions
 from punctura.compare.run import Run
 from punctura.compare.statistics import statistics
 from punctura.simulation import Hand, Plant, RecordedMotion, Strokes
@@ -37,15 +36,6 @@ def test_a_hand_gives_the_statistics_of_the_run_alone() -> None:
             assert result.drop[i, pop.membrane] == pytest.approx(pop.drop, rel=1e-12)
             assert result.overshoot[i, pop.membrane] == pytest.approx(pop.overshoot, rel=1e-9)
     assert np.ptp(result.peak) > 0
-
-
-def test_threads_and_instructions_do_not_change_a_bit() -> None:
-    one = batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=1)
-    many = batch(SCENE, STROKES, vary=VARY, duration=0.5, threads=7, instructions="portable")
-    assert not many.in_lanes.any()
-    assert one.in_lanes.all() == (simd_instructions()[0] != "portable")
-    for name in ("peak", "felt_peak", "depth", "work", "dwell", "limited", "pops", "first_pop", "drop", "overshoot"):
-        assert getattr(one, name).tobytes() == getattr(many, name).tobytes()
 
 
 def positions(ticks: int = 900) -> NDArray[np.float64]:

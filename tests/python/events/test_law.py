@@ -5,7 +5,7 @@ import math
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.events import EventFinder, crossing
+from punctura.events import EventFinder
 from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from runs import along, ramp, unit
@@ -79,37 +79,3 @@ def test_a_hands_pop_drops_as_the_law_says_within_2_percent(name):
     for pop in pops:
         peak, friction = offline(scene, pop.membrane, 0)
         assert pop.drop == pytest.approx(peak - friction, rel=0.02)
-
-
-def test_the_peak_lies_where_the_laws_largest_resistance_is():
-    random = np.random.default_rng(1)
-    for _ in range(200):
-        thickness = float(random.choice([0, 10 ** random.uniform(-5, -1.8)]))
-        membrane = wall(thickness, random.uniform(50, 2000), random.uniform(0, 2), random.uniform(0.02, 0.9))
-        beta = float(random.uniform(0, 1.3))
-        law = pn.ThickLaw(NEEDLE, membrane, beta)
-        turns = crossing(scene_of(membrane), 0, math.cos(beta))
-        lower, _ = law.bounds(np.linspace(0, law.X + law.U, 50_001))
-        assert -law.bounds(turns.peak)[0] >= -lower.min() * (1 - 1e-9)
-        assert turns.through == pytest.approx(law.X + law.U, rel=1e-12)
-        assert turns.far_face == pytest.approx(law.U, rel=1e-12)
-        assert turns.again < turns.peak <= turns.through * (1 + 1e-12)
-
-
-def test_the_pop_is_complete_in_the_tick_in_which_the_tip_is_through():
-    scene = scene_of(wall(1e-3))
-    columns = along(scene, ramp(scene, -1e-3, 12e-3))
-    pop = EventFinder(scene).add(columns)[1]
-    through = crossing(scene, 0, 1.0).through
-    depth = columns["depth"][:, 0]
-    assert depth[pop.tick - 1] < through <= depth[pop.tick] == pop.depth
-    assert pop.time == pop.tick / scene.servo.rate
-    assert -columns["axial_force"][pop.tick, 0] == pytest.approx(pop.force_after, rel=1e-12)
-
-
-def test_a_thin_wall_pops_in_one_tick():
-    scene = scene_of(wall(0.0))
-    columns = along(scene, ramp(scene, -1e-3, 8e-3))
-    pop = EventFinder(scene).add(columns)[1]
-    before, after = -columns["axial_force"][pop.tick - 1, 0], -columns["axial_force"][pop.tick, 0]
-    assert (before, after) == (pytest.approx(pop.force_before), pytest.approx(pop.force_after))
