@@ -1,4 +1,6 @@
-"""The direction at entry, from the motion."""
+"""The direction at entry, from the motion, and an exit after an entry that is barred."""
+
+import itertools
 
 import numpy as np
 import punctura
@@ -13,8 +15,21 @@ Z = np.array([0.0, 0.0, 1.0])
 SOLVERS = ("exact", "paper")
 
 
+def along_z(*depths):
+    return np.concatenate([np.linspace(a, b, 400) for a, b in itertools.pairwise(depths)])[:, None] * Z
+
+
 def tilted(degrees):
     return np.array([np.sin(np.deg2rad(degrees)), 0, np.cos(np.deg2rad(degrees))])
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_barred_tip_that_comes_out_never_makes_a_force_jump(solver):
+    """From behind through the surface, and back: no force before the tip has been in front."""
+    p = punctura.Proxy3d(NEEDLE, MEMBRANE, [0, 0, 0], Z, COUPLING, 1 / RATE, solver=solver)
+    assert not p.run(along_z(20e-3, -2e-3), -Z).force.any()
+    first = np.linalg.norm(p.run(along_z(-2e-3, 2e-3), Z).force, axis=1)
+    assert np.diff(first).max() < 0.02
 
 
 def curved(rng, ticks, rate, speed):
