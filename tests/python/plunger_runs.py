@@ -1,7 +1,5 @@
 """Runs of the ready epidural with a thumb on the plunger of its syringe."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A short run of tools/fuzz_scenes.py with a fixed seed."""
 
-from __future__ import annotations
-
 import importlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The command line: verbs, exit statuses, plain sentences on stderr."""
 
-from __future__ import annotations
-
 import io
 import json
 import os

@@ -1,7 +1,5 @@
 """A defect is told from a mistake, and its traceback is kept where only its user can read it."""
 
-from __future__ import annotations
-
 import os
 import stat
 import subprocess

@@ -1,7 +1,5 @@
 """Every class that a user can get hold of says what it is: no <punctura._core.Proxy1d object at 0x7f...>."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np

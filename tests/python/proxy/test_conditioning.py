@@ -1,7 +1,5 @@
 """Compares conditioned positions with an independent line fit, and checks ServoSettings."""
 
-from __future__ import annotations
-
 import numpy as np
 import punctura
 import pytest

@@ -1,7 +1,5 @@
 """A wrong description with a right checksum is rejected, with file and field, and does not affect other recordings."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import re

@@ -1,7 +1,5 @@
 """Finished, killed, cut off and damaged recordings."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

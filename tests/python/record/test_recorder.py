@@ -1,7 +1,5 @@
 """Every tick of a run reaches the file."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys

@@ -1,7 +1,5 @@
 """A full, slow or failing disk has little effect on a recording, which is reported, and none on the loop."""
 
-from __future__ import annotations
-
 import errno
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """After any failure of a recording, every tick is a row or is counted as lost, and the failure is reported."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

@@ -1,7 +1,5 @@
 """The file of a killed process blocks its name only if it holds ticks or is still being written."""
 
-from __future__ import annotations
-
 import errno
 import multiprocessing
 import os

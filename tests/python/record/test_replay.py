@@ -1,7 +1,5 @@
 """A replay gives the recorded forces, bit for bit."""
 
-from __future__ import annotations
-
 import json
 import shutil
 

@@ -1,7 +1,5 @@
 """A recorded motion as a device, with its own scene and with another one."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

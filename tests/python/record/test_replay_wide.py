@@ -1,7 +1,5 @@
 """A run with measured tissue, a relaxing coupling and sub-steps is recorded and replayed bit for bit."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`punctura rivals` before its fits: the needle of a recording, and outputs that cannot be written."""
 
-from __future__ import annotations
-
 import numpy as np
 import punctura as pn
 import pytest

@@ -1,7 +1,5 @@
 """The JSON Schema of scene files has the core's bounds in the file's units, and all data for a form."""
 
-from __future__ import annotations
-
 import json
 import math
 

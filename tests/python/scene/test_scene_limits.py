@@ -1,7 +1,5 @@
 """Absurd scene files are rejected with a clear message and in short time, whatever they contain."""
 
-from __future__ import annotations
-
 import pytest
 from punctura import ConfigurationError, load_scene
 

@@ -1,7 +1,5 @@
 """All problems of a scene file are reported at once, in the file's keys and units."""
 
-from __future__ import annotations
-
 import pytest
 from punctura import ConfigurationError, load_scene
 from punctura.exercise import load_exercise

@@ -1,7 +1,5 @@
 """The values of a scene file arrive in the core, in SI."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The ready scenes have the paper's values and the expected forces."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from punctura import Insertion, load_scene, scene_names

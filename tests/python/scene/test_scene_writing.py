@@ -1,7 +1,5 @@
 """A saved scene is loaded again unchanged, bit for bit."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 

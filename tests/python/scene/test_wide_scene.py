@@ -1,7 +1,5 @@
 """Scenes beyond K06: read, run, recorded, replayed, followed by events and drawn."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from punctura import Insertion, MaxwellBranch, Tissue, load_scene, save_scene

@@ -1,7 +1,5 @@
 """Runs examples/measured_insertion.py on an artificial trace; the measured data are not needed."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """An invalid motion is rejected with file, line, problem and remedy, and leaves no output file."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from punctura import ConfigurationError, simulate

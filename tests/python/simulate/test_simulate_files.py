@@ -1,7 +1,5 @@
 """Files of any length take the same memory, and an error leaves no file behind."""
 
-from __future__ import annotations
-
 import os
 import stat
 import subprocess

@@ -1,7 +1,5 @@
 """Forms of a motion file that are as good as the plain one."""
 
-from __future__ import annotations
-
 import pytest
 from punctura import simulate
 

@@ -1,7 +1,5 @@
 """Motions in Parquet and NumPy files."""
 
-from __future__ import annotations
-
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq

@@ -1,7 +1,5 @@
 """Which motions count as even, and what becomes of one sampled at another rate."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from punctura import Insertion, load_scene, simulate
