@@ -127,10 +127,16 @@ def give_name(descriptor: int, path: Path) -> bool:
 
 
 def sync(path: Path) -> None:
-    """Waits until a file, or the names of the files in a folder, are on the disk. Windows cannot wait for names."""
+    """Waits until a file, or the names of the files in a folder, are on the disk.
+
+    Windows and some network file systems cannot wait for names.
+    """
     if not (folder := path.is_dir()) or os.name != "nt":
         descriptor = os.open(path, os.O_RDONLY if folder else os.O_RDWR)
         try:
             os.fsync(descriptor)
+        except OSError as bad:
+            if not folder or bad.errno != errno.EINVAL:
+                raise
         finally:
             os.close(descriptor)

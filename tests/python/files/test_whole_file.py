@@ -5,7 +5,7 @@ import os
 import stat
 
 import pytest
-from punctura.files.whole_file import whole_file, write_whole
+from punctura.files.whole_file import sync, whole_file, write_whole
 
 
 @pytest.fixture(params=["unnamed", "hidden"])
@@ -87,3 +87,15 @@ def test_a_folder_that_is_not_there_is_told_with_the_files_own_name(system, tmp_
     with pytest.raises(FileNotFoundError) as caught:
         write_whole(path, b"")
     assert caught.value.filename == str(path)
+
+
+def test_a_folder_whose_file_system_cannot_wait_for_names_is_no_error_and_a_file_is(tmp_path, monkeypatch):
+    def refuses(descriptor):
+        raise OSError(errno.EINVAL, "Invalid argument")
+
+    file = tmp_path / "a.txt"
+    file.touch()
+    monkeypatch.setattr(os, "fsync", refuses)
+    sync(tmp_path)
+    with pytest.raises(OSError, match="Invalid argument"):
+        sync(file)
