@@ -51,6 +51,7 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (YES, '"yes_no"', '"magnitude"\nanswers = {yes = "y"}', "answers.yes", "magnitude: a number is typed"),
         (YES, '"yes_no"', '"rating"', "task", "without catch trials"),
         (YES, "[trials]", '[words]\nrest = "{minutes} min"\n[trials]', "words.rest", "may have {seconds}, and no"),
+        (YES, "[trials]", '[words]\nrest = "{seconds.upper} s"\n[trials]', "words.rest", "may have {seconds}, and no"),
         (YES, "[trials]", '[words]\nlast = "Done }"\n[trials]', "words.last", "may have no braces"),
         (YES, "[trials]", '[words]\nwait = " "\n[trials]', "words.wait", "leave it out for English"),
         (YES, "[trials]", '[words]\nno = "yes"\n[trials]', "words.no", "is what yes reads, too"),
