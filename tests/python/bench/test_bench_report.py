@@ -149,7 +149,7 @@ def test_rows_of_many_trials_are_printed_and_drawn_with_their_ratios(capsys, tmp
     assert (
         "paper  avx2        32 trials   16.9 of  30.0 ( 56%);  10.0 of  20.0 ( 50%)" in printed
     )  # 27 operations in 1.6 ns
-    assert "       8 x   4000    6.00" in printed in printed
+    assert "       8 x   4000    6.00" in printed
     draw(batch, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == {
         f"performance-{name}.svg" for name in ("faster", "roofline", "growth")
