@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -85,13 +86,40 @@ def run(
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the page's address alone.")] = False,
 ) -> None:
     """Runs a participant's session in the studio's page, or the rest of it: each answered trial is on disk at once."""
-    from punctura.cli._sitting import run_sitting
+    from punctura._core import DeviceError, Placement
+    from punctura.cli._studio import need_studio
+    from punctura.live import RunLimits, load_limits, load_placement
     from punctura.perception import load_protocol
+    from punctura.perception.load import check_device
+    from punctura.process.dropping_stream import DroppingStream
 
     never_wait_for_stderr()
-    folder = _folder(protocol, out)
+    need_studio("punctura perception run")
+    from punctura.studio import serve
+    from punctura.studio.loaded import from_name
+    from punctura.studio.run import Settings
+    from punctura.studio.sitting import PerceptionSitting
+
+    serve.need_page(serve.PAGE)
+    folder, loaded = _folder(protocol, out), load_protocol(protocol)
+    base, placed = from_name(loaded.scene_name), load_placement(placement) if placement else Placement()
+    settings = Settings(device, placed, limits=load_limits(limits) if limits else RunLimits())
+
+    def make() -> serve.StudioServer:
+        server = serve.StudioServer(base, settings, port, serve.token_from_environment(), folder=folder)
+        studio = server.session
+        check_device(loaded, studio.run.loop.limits)
+        studio.sitting = PerceptionSitting(studio, loaded, base, participant)
+        studio.call(studio.sitting.start)
+        for note in studio.run.notes:
+            notice(f"note: {note}")
+        return server
+
+    shown = DroppingStream(sys.stdout)
     try:
-        run_sitting(load_protocol(protocol), folder, participant, device, limits, placement, port, not no_browser)
+        serve.run_studio(make, not no_browser, report=lambda address: print(address, file=shown))
+    except DeviceError as error:
+        raise typer.BadParameter(str(error), param_hint="--device") from None
     except Ended as end:
         kept = f", and {folder} keeps the answered trials" if folder.is_dir() else ""
         leave(end, f"; the force is off{kept}")

@@ -196,7 +196,7 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
         result.reason = "the answers hardly depend on the level, so they do not determine a threshold"
     if result.reason:
         return
-    result.threshold = Estimate(*map(float, shape.level(belief.quantiles(grid.place, (0.5, *SHARES)))))
+    result.threshold = _estimate(belief, shape.level(grid.place))
     result.lapse = _estimate(belief, grid.lapse)
     if shape.rest == "bias":
         result.first = _estimate(belief, ndtr(grid.bias))
@@ -279,8 +279,8 @@ def _settings(protocol: Protocol, found: Answers) -> tuple[Estimate, Estimate]:
 
 
 def _estimate(belief: Belief, values: Array) -> Estimate:
-    low, high = belief.quantiles(values, SHARES)
-    return Estimate(belief.mean(values), float(low), float(high))
+    """The middle: of a number whose posterior is skewed the mean is too large."""
+    return Estimate(*map(float, belief.quantiles(values, (0.5, *SHARES))))
 
 
 def _detection(protocol: Protocol, found: Answers) -> list[Detection]:

@@ -39,15 +39,11 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
     file, problems = SCHEMA.checked(tables)
     scene, found = scene_of(tables, path)
     problems += found
-    if file is None:
-        raise ConfigurationError(problems, str(path))
-    wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
-    problems += [
-        *_answers(file),
-        *problems_of(file.words, KEYS),
-        *(Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad),
-    ]
-    if scene is None or problems:
+    if file is not None:
+        wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
+        problems += [*_answers(file), *problems_of(file.words, KEYS)]
+        problems += [Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad]
+    if file is None or scene is None or problems:
         raise ConfigurationError(problems, str(path))
     return _shown(path, file, scene)
 
@@ -62,14 +58,9 @@ def check_device(protocol: Protocol, limits: ForceLimits) -> None:
         raise ConfigurationError(problems, str(protocol.path))
 
 
-def _float(value: Decimal | None) -> float | None:
-    return None if value is None else float(value)
-
-
 def _plain(value: object) -> object:
-    if isinstance(value, tuple):
-        return [float(one) for one in value]
-    return float(value) if isinstance(value, Decimal) else value
+    """As it is written in a message."""
+    return float(value) if isinstance(value, Decimal) else [*map(_plain, value)] if isinstance(value, tuple) else value
 
 
 def _answers(file: ProtocolFile) -> Iterator[Problem]:
@@ -138,15 +129,13 @@ def _stimulus(file: ProtocolFile) -> Iterator[Row]:
     plain = file.method == "constant" and not file.trials.catch
     reason = "is for constant stimuli without catch trials: change method or catch"
     yield file.task in ("rating", "magnitude") and not plain, "task", file.task, reason
-    for name in ("solver", "reference_solver"):
-        value = getattr(given, name)
-        yield value not in (None, "paper", "exact"), f"stimulus.{name}", value, "must be paper or exact"
 
 
 def _reference(file: ProtocolFile) -> Iterator[Row]:
     """Of the other intervals."""
     given, task, levels = file.stimulus, file.task, [float(level) for level in file.stimulus.levels]
-    where, reference, catch = "stimulus.reference", _float(given.reference), _float(file.trials.catch_level)
+    where = "stimulus.reference"
+    reference, catch = (None if one is None else float(one) for one in (given.reference, file.trials.catch_level))
     if task in ONE_INTERVAL:
         for key in ("reference", "reference_solver"):
             value = getattr(given, key)

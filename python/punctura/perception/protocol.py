@@ -41,8 +41,8 @@ class StimulusTable(Table):
     between: Numbers | None = None  # ... between these two
     membrane: Text | None = None  # whose pop is judged; default: the first
     judged: Literal["drop", "contrast", "peak", "roughness"] = "drop"  # what a simulated observer judges
-    solver: Text | None = None  # of the scene's [servo], in the intervals with the level ...
-    reference_solver: Text | None = None  # ... and in the others
+    solver: Literal["paper", "exact"] | None = None  # of the scene's [servo], in the intervals with the level ...
+    reference_solver: Literal["paper", "exact"] | None = None  # ... and in the others
 
 
 class TrialsTable(Table):
