@@ -20,6 +20,8 @@ SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
 VAGUE = 0.75  # of the range of the levels: an interval of the threshold that says nothing
 OPEN = 0.15  # of the largest density: that much at the end of the prior, and the answers set no bound there
 MISFIT = 0.001  # probability of answers that fit the function as badly
+MANY_LAPSES = 0.1  # upper end of the interval: the JND may be that of the lapses
+CLEAR, LEAST_CLEAR = 2.0, 4  # widths from the threshold at which a wrong answer is a lapse; so many of such answers
 REVERSED = 4.0  # standard deviations by which the answers go against the level
 QUARTER = float(ndtri(0.75))
 LEAST_CELL = 5  # answers for a rate of d'
@@ -204,7 +206,9 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
         result.jnd = _estimate(belief, QUARTER * grid.width)
-        if belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
+        away = np.abs(np.append(found.x, found.caught[:, 0]) - result.threshold.value) * QUARTER / result.jnd.value
+        lapses = result.lapse.high > MANY_LAPSES or (away > CLEAR).sum() < LEAST_CLEAR  # would look like noise
+        if lapses or belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
             result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
     result.weber = _weber(result.jnd, found.reference)
 
