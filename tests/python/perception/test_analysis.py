@@ -145,6 +145,7 @@ def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> Non
         ("compares", lambda level, i: i % 4 < 2, 3, "hardly depend on the level"),
         ("compares", lambda level, i: i % 10 < (7 if level in (0.3, 0.46) else 1), 3, "do not follow one function"),
         ("compares", lambda level, i: level < 0.41, 3, "go against the level"),
+        ("right", lambda level, i: i // 2 % 2, 1, "outside the levels"),  # chance at every level
         ("right", lambda level, i: i % 4 == 0, 3, "go against the level"),
     ],
 )
