@@ -17,6 +17,7 @@ from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.append(str(Path(__file__).parents[2] / "tools"))  # waiting.py
+sys.path.append(str(Path(__file__).parents[1] / "fakes"))  # inverse_service.py
 
 from oracles import cases
 

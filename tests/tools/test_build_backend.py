@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import native_tools
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -127,9 +128,6 @@ REMEDIES = [
 def test_the_remedy_is_the_line_of_this_system(
     release: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.syspath_prepend(str(ROOT / "tools/build_backend"))
-    import native_tools
-
     monkeypatch.setattr(native_tools, "OS_RELEASE", tmp_path / "os-release")
     (tmp_path / "os-release").write_text(f"NAME=x\n{release}")
     assert native_tools.remedy().strip() == line

@@ -2,12 +2,8 @@
 
 import json
 import shutil
-import sys
-from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "tools" / "build_backend"))
 from made_files import LIST, ForeignFileError, publish
 
 

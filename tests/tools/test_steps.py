@@ -6,13 +6,9 @@ import select
 import shlex
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
-
 from waiting import PATIENCE_S, wait_until
 
 TOOLS = Path(__file__).parents[2] / "tools"

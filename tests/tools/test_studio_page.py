@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
-import importlib.util
 import stat
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
+import studio_page
 
 ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the scripts that stand for Node are shell scripts")
 
 
-def load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("studio_page", ROOT / "tools/build_backend/studio_page.py")
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-studio_page = load()
 NPM = """#!/bin/sh
 echo "$*" >>"{log}"
 case "$1" in

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import platform
 import subprocess
-import sys
 from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
@@ -16,15 +15,8 @@ TOOLS = Path(__file__).resolve().parents[2] / "tools"
 
 
 @pytest.fixture
-def check(monkeypatch):
-    monkeypatch.syspath_prepend(str(TOOLS))
-
-    def load(name: str) -> ModuleType:
-        for shared in ("sources", "imports"):
-            sys.modules.pop(shared, None)
-        return importlib.import_module(f"check_{name}")
-
-    return load
+def check():
+    return lambda name: importlib.import_module(f"check_{name}")
 
 
 def plant(root: Path, **files: str) -> Path:

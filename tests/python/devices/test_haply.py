@@ -1,26 +1,11 @@
 """The Inverse3 back-end against a service whose WebSocket is the library websockets, not ours."""
 
-import importlib.util
 import json
-import sys
-from pathlib import Path
 
+import inverse_service as fake
 import pytest
 from punctura import _core
 from waiting import PATIENCE_S, wait_until
-
-FAKES = Path(__file__).parents[2] / "fakes"
-
-
-def _load(name):
-    spec = importlib.util.spec_from_file_location(name, FAKES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-fake = _load("inverse_service")
 
 
 @pytest.mark.parametrize(("version", "takes"), [("3.5.2", "vector"), ("3.4.1", "values"), ("4.0.0", "vector")])

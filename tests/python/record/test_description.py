@@ -1,21 +1,12 @@
 """A wrong description with a right checksum is rejected, with file and field, and does not affect other recordings."""
 
-import importlib
 import json
 import re
-from pathlib import Path
 
 import pytest
+import spoil_recording as tool
 from punctura.record import RecordingError, open_recording
 from punctura.studio.shelf import Shelf
-
-TOOLS = Path(__file__).parents[3] / "tools"
-
-
-@pytest.fixture
-def tool(monkeypatch):
-    monkeypatch.syspath_prepend(TOOLS)
-    return importlib.import_module("spoil_recording")
 
 
 @pytest.fixture
@@ -40,7 +31,7 @@ FINISHED = [
 
 @pytest.mark.parametrize("form", [".part", ".parquet"])
 @pytest.mark.parametrize("place", [*FIELDS, ("about",), *FINISHED], ids=".".join)
-def test_a_value_of_the_wrong_type_is_told_by_file_and_field(tool, recorded, tmp_path, place, form):
+def test_a_value_of_the_wrong_type_is_told_by_file_and_field(recorded, tmp_path, place, form):
     if form == ".part" and place in FINISHED:
         place = ("device",)
     data, bad = tool.description_of(recorded[form]) | {"about": {}}, tmp_path / f"bad{form}"
@@ -52,7 +43,7 @@ def test_a_value_of_the_wrong_type_is_told_by_file_and_field(tool, recorded, tmp
 
 @pytest.mark.parametrize("form", [".part", ".parquet"])
 @pytest.mark.parametrize("field", REQUIRED)
-def test_a_field_that_is_missing_is_reported(tool, recorded, tmp_path, field, form):
+def test_a_field_that_is_missing_is_reported(recorded, tmp_path, field, form):
     data = tool.description_of(recorded[form])
     del data[field]
     tool.rewrite(recorded[form], tmp_path / f"bad{form}", data)
@@ -61,21 +52,21 @@ def test_a_field_that_is_missing_is_reported(tool, recorded, tmp_path, field, fo
 
 
 @pytest.mark.parametrize("value", [None, 3, "text", [], [1]])
-def test_a_description_that_is_no_object_is_reported(tool, recorded, tmp_path, value):
+def test_a_description_that_is_no_object_is_reported(recorded, tmp_path, value):
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", value)
     with pytest.raises(RecordingError, match="not a JSON object"):
         open_recording(tmp_path / "bad.parquet")
 
 
 @pytest.mark.parametrize("value", ["\ud800", 1e999, json.loads("[" * 200 + "]" * 200)])
-def test_what_could_not_be_written_as_json_again_is_reported(tool, recorded, tmp_path, value):
+def test_what_could_not_be_written_as_json_again_is_reported(recorded, tmp_path, value):
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", data | {"about": {"title": value}})
     with pytest.raises(RecordingError, match=r"bad\.parquet: the run description is invalid"):
         open_recording(tmp_path / "bad.parquet")
 
 
-def test_a_key_of_another_version_is_kept(tool, recorded, tmp_path):
+def test_a_key_of_another_version_is_kept(recorded, tmp_path):
     data = tool.description_of(recorded[".parquet"])
     data = tool.changed(data | {"weather": {"sun": True}}, ("summary", "mood"), "good")
     tool.rewrite(recorded[".parquet"], tmp_path / "more.parquet", data)
@@ -83,7 +74,7 @@ def test_a_key_of_another_version_is_kept(tool, recorded, tmp_path):
 
 
 @pytest.mark.parametrize("key", ["stale", "weather"])
-def test_limits_that_cannot_be_are_told_where_they_are_needed(tool, recorded, tmp_path, key):
+def test_limits_that_cannot_be_are_told_where_they_are_needed(recorded, tmp_path, key):
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", tool.changed(data, ("gate", key), -1))
     recording = open_recording(tmp_path / "bad.parquet")
@@ -91,7 +82,7 @@ def test_limits_that_cannot_be_are_told_where_they_are_needed(tool, recorded, tm
         _ = recording.info.gate
 
 
-def test_columns_that_are_none_of_a_recording_are_reported(tool, recorded, tmp_path):
+def test_columns_that_are_none_of_a_recording_are_reported(recorded, tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
     from punctura.record.header import to_metadata
@@ -109,7 +100,7 @@ def test_columns_that_are_none_of_a_recording_are_reported(tool, recorded, tmp_p
 
 
 @pytest.mark.parametrize("place", [("period_s",), ("began",), ("summary", "ticks"), ("scene",)], ids=".".join)
-def test_a_bad_recording_is_left_out_of_the_list_and_the_good_one_stays(tool, recorded, tmp_path, place):
+def test_a_bad_recording_is_left_out_of_the_list_and_the_good_one_stays(recorded, tmp_path, place):
     folder = tmp_path / "kept"
     folder.mkdir()
     data = tool.description_of(recorded[".parquet"])
@@ -119,7 +110,7 @@ def test_a_bad_recording_is_left_out_of_the_list_and_the_good_one_stays(tool, re
 
 
 @pytest.mark.parametrize("verb", [("replay",), ("export", "--out", "out.csv"), ("run", "--headless", "--device")])
-def test_the_command_line_says_so_in_one_sentence(tool, recorded, tmp_path, verb, punctura, monkeypatch):
+def test_the_command_line_says_so_in_one_sentence(recorded, tmp_path, verb, punctura, monkeypatch):
     monkeypatch.chdir(tmp_path)
     data = tool.description_of(recorded[".parquet"])
     tool.rewrite(recorded[".parquet"], tmp_path / "bad.parquet", tool.changed(data, ("summary", "lost"), "many"))

@@ -1,11 +1,9 @@
 """The studio on other devices: an Inverse3 with a simulated service, and a recorded motion."""
 
-import importlib.util
-import sys
 import threading
 from contextlib import contextmanager
-from pathlib import Path
 
+import inverse_service as fake
 import pytest
 from punctura import load_scene
 from punctura._core import DeviceInfo, FedDevice, SimulatedDevice
@@ -18,21 +16,10 @@ from punctura.studio.serve import StudioServer
 from recorded import recorded
 from waiting import PATIENCE_S
 
-FAKE = Path(__file__).parents[2] / "fakes" / "inverse_service.py"
-
-
-def fake_service():
-    spec = importlib.util.spec_from_file_location("inverse_service", FAKE)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["inverse_service"] = module
-    spec.loader.exec_module(module)
-    return module
-
 
 @pytest.fixture
 def haply(monkeypatch, tmp_path):
     """The simulated service of an Inverse3, and the page of a studio on it."""
-    fake = fake_service()
     service = fake.InverseService()
     with fake.Running(service) as url:
         monkeypatch.setenv("PUNCTURA_INVERSE_URL", url)
