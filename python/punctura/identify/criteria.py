@@ -67,7 +67,7 @@ class Rule:
         self._masks = held_out(len(trace), segments)
         self.air = AirNoise(trace, segments)
         self._noise = noise_of(trace.force)
-        self._errors: dict[int, tuple[Candidate, float | None]] = {}
+        self._errors: dict[Candidate, float | None] = {}
 
     def prefers(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` is the better model.
@@ -111,9 +111,9 @@ class Rule:
 
     def held_out_error(self, one: Candidate) -> float | None:
         """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""
-        if id(one) not in self._errors:
-            self._errors[id(one)] = (one, self._held_out_error(one.fit))
-        return self._errors[id(one)][1]
+        if one not in self._errors:
+            self._errors[one] = self._held_out_error(one.fit)
+        return self._errors[one]
 
     def _held_out_error(self, found: Fit) -> float | None:
         squares = []

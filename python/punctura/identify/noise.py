@@ -94,7 +94,7 @@ def mixtures(samples: int) -> list[Mixture]:
 
 
 @dataclass(frozen=True)
-class Explained:
+class Likelihood:
     """What one mixture makes of a fit. log_det: of V; log_gram: of J^T V^-1 J, scaled; left: of the squares, N^2."""
 
     mixture: Mixture
@@ -109,7 +109,7 @@ class NoiseOfFit:
     def __init__(self, residuals: Array, jacobian: Array) -> None:
         self._n, self._p = jacobian.shape
         self._jacobian = jacobian
-        self._explained = tuple(_explained(residuals, jacobian, mixtures(self._n)))
+        self._likelihoods = tuple(_likelihoods(residuals, jacobian, mixtures(self._n)))
 
     def spread(self, inverse: Array) -> Array:
         """The covariance (p, p) of a fit by least squares, averaged over all mixtures by their likelihood.
@@ -118,7 +118,7 @@ class NoiseOfFit:
         """
         total = np.zeros((self._p, self._p))
         weights = self._weights()
-        for one, weight in zip(self._explained, weights, strict=True):
+        for one, weight in zip(self._likelihoods, weights, strict=True):
             if weight > 1e-4 * weights.max():
                 smeared = one.mixture.smeared(self._jacobian)
                 total += weight * self._variance(one) * (inverse @ (self._jacobian.T @ smeared) @ inverse)
@@ -126,7 +126,7 @@ class NoiseOfFit:
 
     def most_likely(self) -> tuple[Mixture, float]:
         """The most likely mixture, and its variance, N^2."""
-        best = self._explained[int(np.argmax(self._weights()))]
+        best = self._likelihoods[int(np.argmax(self._weights()))]
         return best.mixture, self._variance(best)
 
     def slow_and_white(self) -> tuple[float, float]:
@@ -146,25 +146,26 @@ class NoiseOfFit:
         differ.
         """
         n = self._n
-        worth = [(one.log_det + n * np.log(one.left / n), i, one) for i, one in enumerate(self._explained)]
+        worth = [(one.log_det + n * np.log(one.left / n), i, one) for i, one in enumerate(self._likelihoods)]
         return float(
             next(w for w, _, one in sorted(worth) if one.mixture.share == 0 or allowed(one.mixture, one.left / n))
         )
 
-    def _variance(self, one: Explained) -> float:
+    def _variance(self, one: Likelihood) -> float:
         """Of a sample, N^2."""
         return float(one.left / max(self._n - self._p, 1))
 
     def _weights(self) -> Array:
         """The likelihood of every mixture, over their sum."""
         n, p = self._n, self._p
-        worth = np.array([-0.5 * (one.log_det + one.log_gram + (n - p) * np.log(one.left)) for one in self._explained])
+        of = self._likelihoods
+        worth = np.array([-0.5 * (one.log_det + one.log_gram + (n - p) * np.log(one.left)) for one in of])
         worth[1:] -= np.log(len(worth) - 1)
         weights = np.exp(worth - worth.max())
         return np.asarray(weights / weights.sum())
 
 
-def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[Explained]:
+def _likelihoods(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> Iterator[Likelihood]:
     """For each mixture: log det V, that of J^T V^-1 J (scaled), and what V^-1 leaves of the residuals."""
     p = jacobian.shape[1]
     scale = np.sqrt(np.maximum(np.einsum("ij,ij->j", jacobian, jacobian), 1e-300))
@@ -176,4 +177,4 @@ def _explained(residuals: Array, jacobian: Array, every: Sequence[Mixture]) -> I
         values = np.maximum(values, 1e-12 * values[-1])
         taken = vectors.T @ gram[:p, p]
         left = max(float(gram[p, p] - taken @ (taken / values)), 1e-300)
-        yield Explained(mixture, log_det, float(np.log(values).sum()), left)
+        yield Likelihood(mixture, log_det, float(np.log(values).sum()), left)
