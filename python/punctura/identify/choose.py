@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from punctura import Needle
 from punctura.identify.air_noise import drifts
-from punctura.identify.criteria import Candidate, worth_a_fit
+from punctura.identify.criteria import EVIDENCE, Candidate, worth_a_fit
 from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
@@ -50,7 +50,7 @@ class Choice:
     def settle(self) -> None:
         """Chooses a model, and again as long as hops find a better optimum of the chosen one."""
         self.extend()
-        for _ in range(SETTLED):
+        for _ in range(0 if self.search.ended else SETTLED):
             hopped = with_hops(self.current.fit)
             if not hopped.sse < (1 - GAIN) * self.current.fit.sse:
                 break
@@ -109,7 +109,8 @@ class Choice:
         ]  # fmt: skip
         self.plain = new if self.plain is old else self.plain
         self.current = new
-        self.extend()
+        if old.worth(new.effective).bic - new.worth(new.effective).bic > EVIDENCE:
+            self.extend()
 
 
 def choose(
@@ -136,7 +137,7 @@ def _extended(search: Search, current: Candidate) -> Candidate:
     for _ in range(PASSES):
         before = current
         for extension in _in_order(search):
-            if not seen(search.segments, extension, current.model):
+            if search.ended or not seen(search.segments, extension, current.model):
                 continue
             model = current.model.extended(extension)
             if any(one.model == model for one in search.tried):
@@ -194,7 +195,7 @@ def _other_number(search: Search, current: Candidate, most: int) -> Candidate:
         found = search.fitted(f"{count - 1} membrane(s)", fewer, from_these)
         if found is not None and search.rule.prefers(found, best):
             best = found
-    if count < most and current.effective < WHITE * len(search.trace):
+    if count < most and current.effective < WHITE * len(search.trace) and not search.ended:
         for found in _one_more(search, current):
             if search.rule.prefers(found, best):
                 best = found
@@ -226,8 +227,9 @@ def from_all(search: Search, current: Candidate) -> Candidate:
     With several walls, an extension is often worth it only at an optimum where the others are there, too. So hops look
     for the best end of all together.
     """
-    model, enough = current.model, noise_limit(search.trace)
-    if model.membranes < 2 or current.fit.weighted_rmse < enough:
+    model, noise = current.model, noise_limit(search.trace)
+    white = current.effective >= WHITE * len(search.trace)
+    if search.ended or model.membranes < 2 or current.fit.weighted_rmse < (FAR if white else 1.0) * noise:
         return current
     for _ in range(2):  # the second branch of a relaxation comes after the first one
         for extension in extensions(search.needle):

@@ -17,6 +17,7 @@ from punctura.trace.turns import noise_of
 EVIDENCE = 2.0  # by which BIC must prefer the larger model; less is "not worth a mention" (Kass and Raftery 1995)
 STRONG = 6.0  # the same for a sensor that is late, which no trace without it may show: "strong" evidence
 HALF = 0.5  # a linear model sees less than a fit finds
+ALMOST_NONE = 1e-6  # s, of a lag
 NOISY = 1.2  # times the noise: where a model leaves more, it is wrong otherwise, and tells nothing of the sensor
 TAKEN = 0.05  # of the squares, that a relaxation takes at least where a rest shows one
 RELAXATION = "relaxation"  # begins the names of its parameters
@@ -68,6 +69,7 @@ class Rule:
         self.air = AirNoise(trace, segments)
         self._noise = noise_of(trace.force)
         self._errors: dict[Candidate, float | None] = {}
+        self._late: dict[Candidate, bool] = {}
 
     def prefers(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` is the better model.
@@ -86,7 +88,8 @@ class Rule:
         larger, smaller = (new, old) if len(new.fit.u) > len(old.fit.u) else (old, new)
         needed = EVIDENCE
         if set(larger.model.late) - set(smaller.model.late):
-            needed = STRONG if larger.fit.weighted_rmse < NOISY * self._noise else np.inf
+            shown = larger.fit.weighted_rmse < NOISY * self._noise and self._is_late(larger)
+            needed = STRONG if shown else np.inf
         if larger is old:
             return gain >= -needed if len(new.fit.u) < len(old.fit.u) else gain > 0
         if gain <= needed or self._may_be_slow_noise(new, old):
@@ -108,6 +111,18 @@ class Rule:
         left = old.fit.noise.most_likely()
         needed = STRONG if left[0].share > 0 and self.air.tested(*left) else EVIDENCE
         return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= needed
+
+    def _is_late(self, one: Candidate) -> bool:
+        """Whether a lag is worth it beside one of almost 0, whose fine steps alone follow a pop better."""
+        if one not in self._late and "lag" in one.model.late:
+            names = [name for name in one.model.names if name != "lag"]
+            try:
+                none = fit(one.fit.misfit, names, one.fit.parameters.with_values({"lag": ALMOST_NONE}))
+            except TraceError:
+                return True
+            gain = information(none.residuals, len(names), one.effective).bic - one.worth(one.effective).bic
+            self._late[one] = gain > STRONG
+        return self._late.get(one, True)
 
     def held_out_error(self, one: Candidate) -> float | None:
         """The rms error, N, at samples that the fit did not use; None if a fit without them does not end."""

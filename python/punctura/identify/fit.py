@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.identify.least_squares import least_squares
 from punctura.identify.noise import Mixture, NoiseOfFit
-from punctura.identify.parameters import LATE, Free, Parameters
+from punctura.identify.parameters import Free, Parameters
 from punctura.identify.sensor import SensedModel
 from punctura.identify.whitening import Whitening
 from punctura.trace import Trace, TraceError
@@ -43,9 +44,11 @@ class Misfit:
         """
         self.trace = trace
         self.zero = zero
+        self.evaluations = 0  # of the derivatives, by all fits so far
         self.depth_error = depth_error or DepthError(np.zeros(len(trace)), np.ones(len(trace)))
         self.used = np.ones(len(trace), bool) if used is None else used
         self.whitening = whitening
+        self._plain = bool(self.used.all() and (self.depth_error.weights == 1).all())
         self._model = SensedModel(parameters.needle, trace.depth, trace.time)
         self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
         if trace.time is not None:
@@ -76,12 +79,13 @@ class Misfit:
 
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
-        columns = self._model.jacobian(free.parameters(u), free.kinds, free.late)
-        by_all = np.insert(columns, [columns.shape[1] - len(LATE)], self._nuisance, axis=1)
-        return self._weighted(blurred(free.chain(by_all, u), blur))
+        self.evaluations += 1
+        by_model, by_late = self._model.jacobian(free.parameters(u), free.kinds, free.late)
+        by_all = np.hstack((by_model, self._nuisance, by_late))
+        return self._weighted(blurred(by_all @ free.derivatives(u), blur))
 
     def _weighted(self, columns: Array) -> Array:
-        kept = np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
+        kept = columns if self._plain else np.asarray((self.depth_error.weights[:, None] * columns)[self.used])
         return kept if self.whitening is None else self.whitening(kept)
 
     def whitened(self, parameters: Parameters, noise: Mixture | None) -> Misfit:
@@ -298,15 +302,12 @@ def best_of(ends: Sequence[Fit]) -> Fit:
 
 def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:
     """The coordinates of the least squares, the number of evaluations, and a message if the search did not end."""
-    from scipy.optimize import least_squares
-
     if len(u) == 0:
         return u, 0, ""
     margin = 1e-9 * np.minimum(free.high - free.low, 1)
-    found = least_squares(
-        lambda at: misfit.residuals(free, at, blur), np.clip(u, free.low + margin, free.high - margin),
-        lambda at: misfit.jacobian(free, at, blur), (free.low, free.high),
-        method="trf", x_scale="jac", ftol=1e-3 if blur else 1e-7, xtol=1e-7, gtol=1e-12,
-        max_nfev=15 if blur else evaluations,
+    most = 15 if blur else evaluations
+    found, count, ended = least_squares(
+        lambda at: misfit.residuals(free, at, blur), lambda at: misfit.jacobian(free, at, blur), u,
+        (free.low + margin, free.high - margin), 1e-3 if blur else 1e-7, 1e-7, most,
     )  # fmt: skip
-    return found.x, int(found.nfev), "" if found.success else str(found.message)
+    return found, count, "" if ended else f"no end within {most} evaluations"

@@ -43,6 +43,10 @@ MORE_OPTIMA = (
     "The search for the intervals met parameters that explain the trace better than the fit, also after new fits from "
     "there. Do not trust the values: the trace holds too little for so many parameters, or the model is wrong."
 )
+ENDED = (
+    "The search for a model ended before it had tried all: no short one explains the trace. State what is known, such "
+    "as the number of walls (--membranes), the lag of the sensor or the noise of the depth (--rig)."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +189,8 @@ def _identified(
         *late_words(late, trace, rig),
         *advice,
     )
-    advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice, *([MORE_OPTIMA] if more else []))
+    advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice)
+    advice += (*([MORE_OPTIMA] if more else []), *([ENDED] if choice.search.ended else []))
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))
 
 

@@ -20,6 +20,7 @@ from punctura.trace import TraceError
 Array = NDArray[np.float64]
 
 SEARCHES, OUTWARDS = 8, 1.5  # of a bound that moves outwards: how often, and by which factor
+NEAR = 2.0  # times the rise that a bound may have: a search that creeps above it goes on no longer
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,8 @@ def _outwards(
         value = float(np.exp(at) if free.logarithmic(j) else at)
         for start in (last, *others, *(() if several else other_grips(last))):
             try:
-                end = fitted(fit.misfit, names, start.with_values({free.names[j]: value}), evaluations=60)
+                there = start.with_values({free.names[j]: value})
+                end = fitted(fit.misfit, names, there, evaluations=60, hopeless=fit.sse + NEAR * limit)
             except TraceError:
                 continue
             watch.met(end.sse, partial(_parameters, end))

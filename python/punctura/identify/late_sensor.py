@@ -27,7 +27,7 @@ HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
 def with_late_sensor(search: Search, current: Candidate) -> Candidate:
     """The current model with a lag, a delay or both of them, if the rule prefers it."""
     free = [name for name in LATE if name not in search.stated and name not in current.model.late]
-    if search.trace.time is None or not free or not _may_be_late(current, free):
+    if search.ended or search.trace.time is None or not free or not _may_be_late(current, free):
         return current
     best = current
     for names in ((free[0],), (free[-1],), tuple(free)):

@@ -93,13 +93,14 @@ def with_contacts_moved(found: Fit) -> Fit:
 Array = NDArray[np.float64]
 
 MOST, IDLE = 120, 30  # hops; and hops without a better end, after which there are no more
+FEW = 10  # the same, while the model is not chosen yet
 SIZES = (0.3, 1.0, 2.0)  # of a hop
 MOVED = (0.2, 0.5, 1.0)  # shares of the parameters that a hop moves
 SHORT, PROMISING = 12, 1.5  # evaluations, after which a search goes on only if its squares are within this factor
 GAIN = 1e-3  # of the squares, that counts as a better end
 
 
-def with_hops(found: Fit) -> Fit:
+def with_hops(found: Fit, most_idle: int = IDLE) -> Fit:
     """The fit, or a better one that begins near it, at random places. The places are the same in each run.
 
     Only for several walls: for one, the convex start finds the optimum.
@@ -114,9 +115,9 @@ def with_hops(found: Fit) -> Fit:
         idle = 0 if end is not None and end.sse < (1 - GAIN) * best.sse else idle + 1
         if end is not None and end.sse < best.sse:
             best = end
-        if idle == IDLE or best.weighted_rmse < enough:
+        if idle == most_idle or best.weighted_rmse < enough:
             break
-    return replace(best, hopped=True)
+    return replace(best, hopped=most_idle == IDLE)
 
 
 def _hopped(best: Fit, rng: np.random.Generator) -> Fit | None:

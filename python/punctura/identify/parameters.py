@@ -230,7 +230,3 @@ class Free:
                 moves = rows[wall, :shared] @ by_u[:shared] + rows[wall, shared + 1 :] @ by_u[first + 1 : first + own]
                 by_u[self._at[k][0]] -= moves + self._speeds[wall] * by_u[self._delay]
         return by_u
-
-    def chain(self, jacobian: Array, u: Array) -> Array:
-        """From derivatives by all parameters (n, p) to those by the coordinates (n, free)."""
-        return np.asarray(jacobian @ self.derivatives(u))

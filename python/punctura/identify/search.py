@@ -12,7 +12,7 @@ from punctura import Needle
 from punctura.identify.criteria import Candidate, Rule, candidate
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, fit, in_order
 from punctura.identify.model import Extension, Model
-from punctura.identify.moves import noise_limit, with_contacts_moved, with_hops, with_pops_moved
+from punctura.identify.moves import FEW, noise_limit, with_contacts_moved, with_hops, with_pops_moved
 from punctura.identify.parameters import LATE, Parameters
 from punctura.identify.start import starts
 from punctura.identify.walls import rise_starts
@@ -20,6 +20,7 @@ from punctura.trace import Segments, Trace, TraceError
 
 WEIGHTED = 2  # fits, each with the weights that the one before shows
 SEARCHED = 600  # samples of a search; the last fit uses all
+MOST_EVALUATIONS = 5000  # of the derivatives: then no further extension, late sensor or wall is tried
 
 
 def thinned(trace: Trace) -> Trace:
@@ -53,6 +54,11 @@ class Search:
     def __post_init__(self) -> None:
         self.rule = Rule(self.trace, self.segments)
 
+    @property
+    def ended(self) -> bool:
+        """Whether the search has taken so long that it tries no further models. A model that explains ends it early."""
+        return bool(self.tried) and self.tried[0].fit.misfit.evaluations > MOST_EVALUATIONS
+
     def fitted(self, name: str, model: Model, from_these: Sequence[Start], hops: bool = False) -> Candidate | None:
         """The model's best fit from any of these, and with hops around its end; None if none ends."""
         self.report(name)
@@ -64,7 +70,7 @@ class Search:
         try:
             best = best_fit(misfit, model.names, from_these, enough)
             best = best if self.tried else weighted(best)
-            best = with_pops_moved(with_hops(best) if hops else best)
+            best = with_pops_moved(with_hops(best, FEW) if hops and not self.ended else best)
             found = candidate(name, model, in_order(with_contacts_moved(best)))
         except TraceError:
             if not self.tried:

@@ -59,17 +59,16 @@ class SensedModel:
             return self._prompt.forces(p, False)[0]
         return self._filtered(self._model(delay, lag).forces(p, False)[0], lag)
 
-    def jacobian(self, p: Parameters, kinds: Sequence[str], late: Sequence[str]) -> Array:
-        """Derivatives (n, q + 2) by the q parameters of coupling and membranes, and by lag and delay.
+    def jacobian(self, p: Parameters, kinds: Sequence[str], late: Sequence[str]) -> tuple[Array, Array]:
+        """Derivatives (n, q) by the q parameters of coupling and membranes, and those by lag and delay (n, 2).
 
         Only those by these kinds, and by these of lag and delay, are computed; others are 0.
         """
+        by_late = np.zeros((len(self._depth), len(LATE)))
         lag, delay = p.late
         if self._time is None or not (late or lag or delay):
-            _, columns = self._prompt.forces(p, by=kinds)
-            return np.hstack((columns, np.zeros((len(columns), len(LATE)))))
+            return self._prompt.forces(p, by=kinds)[1], by_late
         force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0)).forces(p, by=kinds)
-        by_late = np.zeros((len(self._depth), len(LATE)))
         if "lag" in late:
             low, high = max(lag - SHIFT, 0.0), lag + SHIFT
             by_late[:, 0] = (self._filtered(force, high) - self._filtered(force, low)) / (high - low)
@@ -79,7 +78,7 @@ class SensedModel:
         known = np.flatnonzero(columns.any(axis=0))  # the rest is 0 behind the filter, too
         given = np.zeros((len(self._depth), columns.shape[1]))
         given[:, known] = self._filtered(columns[:, known], lag)
-        return np.hstack((given, by_late))
+        return given, by_late
 
     def _model(self, delay: float, lag: float) -> _CameIn:
         """The model along the motion before the delay, in fine steps if a filter follows."""

@@ -108,6 +108,15 @@ def test_a_better_optimum_ends_the_search_for_intervals():
     assert len(estimates(lesser, stops=False)) == 3
 
 
+def test_a_search_that_takes_long_ends_and_says_so(monkeypatch):
+    trace, needle = rise(27)
+    trace = Trace(trace.depth, trace.force * (1 + 0.3 * np.sin(trace.depth / 2e-4)), trace.time)
+    monkeypatch.setattr("punctura.identify.search.MOST_EVALUATIONS", 0)
+    found = identify(trace, needle)
+    assert [one.name for one in found.candidates] == ["K06"]
+    assert any("ended before it had tried all" in verdict for verdict in found.verdicts)
+
+
 @pytest.mark.parametrize("explains", [True, False])
 def test_a_model_that_does_not_explain_the_trace_gets_no_full_search_for_its_bounds(explains, monkeypatch):
     trace, needle = rise(27)

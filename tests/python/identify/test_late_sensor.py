@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import typer
+from punctura import Needle
 from punctura.cli._rig import rig_of
 from punctura.errors import ConfigurationError
 from punctura.identify import Parameters, Rig, identify
@@ -50,6 +51,18 @@ def test_a_late_force_is_found_and_the_spring_is_held(kind, machine):
     assert known["value"] == pytest.approx(LATE, rel=0.1)
     (verdict,) = [one for one in found.verdicts if "comes late" in one]
     assert verdict.startswith("The measured force comes late") and f"--rig {kind}_ms=0" in verdict
+
+
+def test_the_fine_steps_of_a_filter_alone_are_no_lag():
+    """They follow a pop between two samples, which the model without a lag spreads over the sample."""
+    row = default_membrane()
+    row[:5] = 3.354e-3, 557.0, 0.593, 0.349, 0.212e-3
+    true = Parameters(Needle(1.47e-3, 0.374), np.array([row]), default_coupling(2035.0)).with_values({"lag": 1e-6})
+    time = np.linspace(0, 5, 250)
+    depth = np.interp(time, [0, 2.3, 2.7, 5], [0, 14e-3, 14e-3, 0])
+    force = Misfit(Trace(depth, depth, time), true).forces(true) + 0.01 * np.random.default_rng(2).normal(size=250)
+    found = identify(Trace(depth, force, time), true.needle)
+    assert found.rig == () and len(found.parameters.membranes) == 1
 
 
 @pytest.mark.parametrize("seed", [10047, 10055, 10087])
