@@ -1,10 +1,22 @@
-"""A participant who sits at the page, and a studio that may be killed meanwhile."""
+"""A participant who sits at the page, by keys alone, and a studio that is killed again and again at random moments.
+
+    PYTHONPATH=tools python tests/page/sitting.py [KILLS] [SEED]
+
+Fails if an answered trial is lost, or another one comes than is planned. docs/perception.md has a result.
+"""
 
 from __future__ import annotations
 
+import random
+import re
+import sys
+import tempfile
+import threading
 from pathlib import Path
 
-from playwright.sync_api import Page, expect
+from chromium import launch
+from person import opened
+from playwright.sync_api import Page, expect, sync_playwright
 from punctura.perception import Session, load_protocol, read_session
 from punctura.perception.course import Course
 from studio_process import StudioProcess
@@ -27,6 +39,9 @@ total = 20
 "display.force_scale" = 0.8
 """
 TOKEN = "a-token-of-this-test"
+TRIALS = 20
+LONGEST_S = 14.0  # from the first sentence to the kill
+BEGUN = re.compile(r"session begins|trials are done|last trial")
 
 
 def sitting(folder: Path, port: int = 0) -> StudioProcess:
@@ -75,3 +90,45 @@ def on_disk(folder: Path) -> list[dict]:
         assert all((folder / "people" / name).is_file() for name in line["recordings"])
         course.add(trial, line["answer"])
     return lines
+
+
+def act(page: Page) -> int:
+    """What a person does now. Returns how many answers the page said to be on the disk."""
+    words = page.locator(".stage-sentence").inner_text()
+    if "push the needle" in words:
+        stroke(page, 1)
+    page.keyboard.press("y" if "Did it pop?" in words or "Do you agree?" in words else "Enter")
+    page.wait_for_timeout(50)
+    found = re.match(r"Trial (\d+) of|(\d+) of", words)
+    return (int(found[1]) - 1 if found[1] else int(found[2])) if found else 0
+
+
+def main(kills: int = 25, seed: int = 1) -> None:
+    draw, folder = random.Random(seed), Path(tempfile.mkdtemp())
+    answered(folder, 0)
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
+        studio = sitting(folder)
+        with opened(browser, studio.url, bench=False) as page:
+            page.route("**/api/noise.wav", lambda route: route.abort())  # 1.7 MB, which no kill concerns
+            for kill in range(kills):
+                page.locator(".stage-sentence", has_text=BEGUN).wait_for()
+                killer = threading.Timer(draw.uniform(0.0, LONGEST_S), studio.kill)
+                killer.start()
+                answers = [act(page)]
+                while killer.is_alive():
+                    answers.append(act(page))
+                kept = len(on_disk(folder))
+                assert kept >= max(answers)
+                print(f"kill {kill + 1}: {kept} of {TRIALS} trials are on the disk", flush=True)
+                studio = sitting(folder, studio.port)
+            while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
+                act(page)
+        studio.end()
+        browser.close()
+    assert len(on_disk(folder)) == TRIALS
+    print(f"{kills} kills, {TRIALS} answered trials, none lost, order as planned")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

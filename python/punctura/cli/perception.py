@@ -17,8 +17,7 @@ from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
 if TYPE_CHECKING:
-    from punctura.perception import Analysis, Observer, Protocol
-    from punctura.perception.analysis import Person
+    from punctura.perception import Observer, Protocol
 
 command = typer.Typer(no_args_is_help=True, help="Asks people what they feel; analyses the answers.")
 
@@ -166,19 +165,8 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
     if as_json:
         typer.echo(json_of(found), nl=False)
         return
-    _print(found)
+    typer.echo((folder / "report.md").read_text(encoding="utf-8"))
     typer.echo(str(folder / "report.md"))
-
-
-def _print(found: Analysis) -> None:
-    from punctura.perception.report import words
-
-    lines: list[tuple[str, Person | Analysis]] = [(f"{p.participant}: {p.trials} trials", p) for p in found.people]
-    for name, one in [*lines, ("mean of people", found)]:
-        numbers = {"threshold": one.threshold, "JND": one.jnd, "slope": one.slope}
-        text = ", ".join(f"{what} {words(value)}" for what, value in numbers.items() if value is not None)
-        unit = found.unit.removesuffix("-") if one.slope is None else ""
-        typer.echo(f"{name}, {one.reason or f'{text} {unit}'.rstrip()}")
 
 
 @command.command()

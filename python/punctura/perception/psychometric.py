@@ -203,30 +203,18 @@ def posterior(
     """
     trials = np.column_stack(np.broadcast_arrays(np.asarray(shown, np.float64), sides))
     cells, each = np.unique(trials, axis=0, return_inverse=True)
-    hits = np.bincount(each.ravel(), np.asarray(counted, np.float64), len(cells)).astype(np.float64)
-    total = np.bincount(each.ravel(), minlength=len(cells)).astype(np.float64)
-    data = _Data(cells[:, 0], cells[:, 1], hits, total, catch)
-    belief = _weighed(Grid(shape, levels, FIT[0]), data)
-    for sizes in FIT[1:]:
-        near = [_around(belief, values) for values in belief.grid.parts]
-        belief = _weighed(Grid(shape, levels, sizes, near), data)
+    hits = np.bincount(each.ravel(), np.asarray(counted, np.float64), len(cells))
+    total = np.bincount(each.ravel(), minlength=len(cells))
+    near: list[Array] = []
+    for sizes in FIT:
+        grid = Grid(shape, levels, sizes, near)
+        p, caught = grid.probability(cells[:, 0], cells[:, 1]), grid.caught()
+        log = hits @ np.log(p) + (total - hits) @ np.log1p(-p) + np.log(np.maximum(grid.prior, 1e-300))
+        log = log + catch[0] * np.log(caught) + (catch[1] - catch[0]) * np.log1p(-caught)
+        weight = np.exp(log - log.max())
+        belief = Belief(grid, weight / weight.sum())
+        near = [_around(belief, values) for values in grid.parts]
     return belief
-
-
-class _Data(NamedTuple):
-    at: Array
-    sides: Array
-    hits: Array
-    total: Array
-    catch: tuple[float, float]
-
-
-def _weighed(grid: Grid, data: _Data) -> Belief:
-    p, caught = grid.probability(data.at, data.sides), grid.caught()
-    log = data.hits @ np.log(p) + (data.total - data.hits) @ np.log1p(-p) + np.log(np.maximum(grid.prior, 1e-300))
-    log = log + data.catch[0] * np.log(caught) + (data.catch[1] - data.catch[0]) * np.log1p(-caught)
-    weight = np.exp(log - log.max())
-    return Belief(grid, weight / weight.sum())
 
 
 def _around(belief: Belief, values: Array) -> Array:
