@@ -1,25 +1,44 @@
-"""What a hand feels of one stimulus, and the scene for a wanted number of newtons."""
+"""What a hand feels of one stimulus, simulated or recorded, and the scene for a wanted number of newtons."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq
 
 from punctura import Scene
-from punctura._core import Experiment, ForceLimits, Hand, Strokes, force_scale, largest_force, lasting_force
+from punctura._core import (
+    Experiment,
+    Fault,
+    ForceLimits,
+    Hand,
+    Limit,
+    ServoState,
+    Strokes,
+    describe,
+    force_scale,
+    largest_force,
+    lasting_force,
+)  # fmt: skip
 from punctura.compare.run import Run
 from punctura.compare.statistics import FELT_S, statistics
 from punctura.errors import ConfigurationError
+from punctura.events import crossing
 from punctura.live import stroke_ends
+from punctura.live.force_words import LIMIT_WORDS
+from punctura.record import open_recording
+from punctura.ticks import COMMAND_SCENE, Ticks
 
 STROKE_S, REST_S = 1.0, 0.3  # of the simulated hand: one way inwards
 SMOOTH_S = 0.02  # what changes more slowly than this is no roughness
 MOST_MISS = 0.02  # of a wanted number of newtons
 BEFORE_POP_S = 0.01  # that the roughness leaves out
+READY_S = 0.25  # from a change of the scene, which fades in over 0.2 s, until the needle may touch
 
 
 @dataclass(frozen=True)
@@ -84,6 +103,43 @@ def simulated(scene: Scene, membrane: int, seed: int | None = None) -> Felt:
     trial = Experiment(scene, motion, hand=Hand(tremor_rms=0.0) if steady else Hand(), seed=seed or 0)
     ticks = trial.run(REST_S + STROKE_S + REST_S / 2)
     return felt(Run.of_ticks("", scene, ticks), membrane, force_scale(scene, ForceLimits()))
+
+
+class Spoilt(Exception):
+    """An interval was not felt as planned: the text says why. The trial must be repeated."""
+
+
+def felt_of(recording: Path, intervals: Sequence[Scene], membrane: int) -> list[Felt]:
+    """What a person felt of each interval of a trial. Raises Spoilt, RecordingError."""
+    ticks = open_recording(recording).ticks()
+    changes = np.flatnonzero(ticks.commands & COMMAND_SCENE).tolist()
+    ends = [0, *changes, len(ticks)]
+    if len(ends) != len(intervals) + 1:
+        raise Spoilt(f"its recording has {len(ends) - 1} of {len(intervals)} intervals")
+    return [
+        _felt(ticks[start:end], one, membrane, READY_S * (start > 0))
+        for (start, end), one in zip(pairwise(ends), intervals, strict=True)
+    ]
+
+
+def _felt(ticks: Ticks, scene: Scene, membrane: int, ready: float) -> Felt:
+    run = Run.of_ticks("", scene, ticks)
+    stroke = slice(run.touch, None)
+    limits = {Limit(int(one)).name for one in np.unique(ticks.limit[stroke])} - {"none"}
+    if lost := int(ticks["lost"].sum()):
+        raise Spoilt(f"{lost} ticks were lost")
+    if (faults := ticks.fault[ticks.fault != 0]).size:
+        raise Spoilt(describe(Fault(int(faults[0]))))
+    if run.depth[0] > 0 or run.time[run.touch] - run.time[0] < ready:
+        raise Spoilt("the needle was in the tissue before the interval began")
+    if limits - {"ramp"}:
+        raise Spoilt(f"the force was cut: {', '.join(LIMIT_WORDS[name] for name in sorted(limits))}")
+    if limits or (ticks.state[stroke] != ServoState.active).any():
+        raise Spoilt("the force was not on yet: wait a moment in front of the tissue")
+    through = crossing(scene, membrane, 1.0).through
+    if ticks.depth[:, membrane].max() < through:
+        raise Spoilt(f"the needle did not go through the {scene.membranes[membrane].name}")
+    return felt(run, membrane, float(ticks.force_scale[-1]))
 
 
 def solved(scene: Scene, quantity: str, wanted: float, path: str, between: tuple[float, float], membrane: int) -> Scene:

@@ -23,12 +23,11 @@ from punctura.defects import explain
 from punctura.errors import sentence_of
 from punctura.events import crossing
 from punctura.perception.course import Trial, counted
-from punctura.perception.felt import READY_S, felt_of
 from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import Session as Answers
 from punctura.perception.session import agreed, recordings
-from punctura.perception.stimulus import Felt
+from punctura.perception.stimulus import READY_S, Felt, felt_of
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
 from punctura.studio.loaded import Loaded
@@ -199,14 +198,14 @@ class PerceptionSitting:
     def _finish(self, reason: str = "") -> None:
         """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
         self._say(self._words.wait)
-        trial, recording = self._trial, self._folder / f"{self._name()}.parquet"
-        assert trial
+        assert self._trial
+        recording, scenes = self._folder / f"{self._name()}.parquet", [one.scene for one in self._trial.intervals]
 
         def finished(_: str, status: RecorderStatus) -> None:  # in a thread of its own
             found: list[Felt] = []
             why = reason or status.words
             try:
-                found = [] if why else felt_of(recording, trial.intervals, self._protocol.membrane)
+                found = [] if why else felt_of(recording, scenes, self._protocol.membrane)
             except Exception as bad:
                 why = explain(bad)
             self._studio.jobs.post(lambda: self._again(why) if why else self._ask(found))
