@@ -23,24 +23,6 @@ def fleet(n: int, threads: int = 1, instructions: str | None = None) -> Fleet:
     return made
 
 
-def test_the_results_do_not_depend_on_other_trials_threads_or_the_size_of_a_step():
-    speeds = np.linspace(0.005, 0.02, 7)
-    one, many = fleet(7), fleet(7, threads=3)
-    for _ in range(10):
-        for _ in range(4):
-            small = one.step(speeds, 40)
-        large = many.step(speeds, 160)
-        for name in ("force", "travel", "fault", "depth"):
-            assert (small[name] == large[name]).all()
-        assert (small["highest_force"] <= large["highest_force"]).all()
-    assert large["highest_force"].max() > 0.3 and large["depth"].shape == (7, 1)
-    alone = Fleet(AXIS)
-    alone.place(0, SCENE, START, seed=3)
-    for _ in range(10):
-        last = alone.step([speeds[3]], 160)
-    assert last["force"][0] == large["force"][3]
-
-
 def test_a_trial_is_an_experiment_of_the_package():
     """A hand that rests: the same motion as that of an Experiment with a target."""
     made = fleet(1).step([0.0], 1600)

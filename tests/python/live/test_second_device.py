@@ -130,18 +130,6 @@ def test_a_needle_that_is_silent_does_not_hold_up_the_end_after_a_fault_of_the_s
     assert "ceased" not in summary.fault
 
 
-def test_a_fault_of_the_needles_device_ends_the_force_of_the_thumb(pair):
-    needle, thumb = pair
-
-    def act():
-        needle.position = (math.nan, 0.0, 0.0)
-
-    summary, loop = live(pair, act)
-    assert "is not finite" in summary.fault and "thumb" not in summary.fault
-    assert loop.fault == Fault.none and loop.force == 0
-    wait_until(lambda: needle.force == thumb.force == (0.0, 0.0, 0.0))
-
-
 @pytest.mark.parametrize("which", ["the device's ticks have ceased", "the device under the thumb has a fault"])
 def test_a_library_that_dies_ends_the_run_of_both(pair, which):
     needle, thumb = pair

@@ -79,26 +79,6 @@ def test_the_bounds_of_one_depth_are_the_bounds_of_an_array():
             assert the_law.bounds(float(q[lane, j])) == (lower[j], upper[j])
 
 
-def test_as_the_thickness_goes_to_zero_the_law_tends_to_the_thin_law():
-    """Away from the jumps at 0 and X the difference is half the slope of phi times U: halve H and it halves."""
-    p = random_laws.parameters(11, 300)
-    L = p.law()
-    q = np.sort(np.random.default_rng(11).uniform(0.05, 1.5, (300, 30)), axis=1) * L.X[column]
-    q[abs(q - L.X[column]) < 0.04 * L.X[column]] = 0.5
-    thin_lower, thin_upper = printed.thin(L.lanes(column), q)
-    for lane in range(300):
-        the_needle, m = core.needle(p, lane), core.membrane(p, lane)
-        the_thin = punctura.ThinLaw(the_needle, m)
-        assert np.allclose(the_thin.bounds(q[lane]), (thin_lower[lane], thin_upper[lane]), rtol=1e-13, atol=0)
-        slope = max(L.A_I[lane], abs(L.A_O[lane]))
-        for thickness in L.X[lane] * np.array([1e-2, 1e-4, 1e-6]):
-            thick = punctura.ThickLaw(
-                the_needle, punctura.Membrane(m.stiffness, m.precompression, m.friction, float(thickness))
-            )
-            apart = abs(np.array(thick.bounds(q[lane])) - the_thin.bounds(q[lane])).max()
-            assert apart <= slope * thickness / 2 * (1 + 1e-6) + 1e-9 * L.largest[lane]
-
-
 @pytest.mark.parametrize("depth", [3, 1e-3, np.float64(1e-3), np.float32(1e-3), np.int64(2), np.array(1e-3)], ids=repr)
 def test_one_depth_of_any_number_type_gives_two_plain_numbers(depth):
     law = punctura.ThinLaw(punctura.Needle(1.08e-3, 0.28), punctura.Membrane(570.0, 0.41, 0.2, 0.0))

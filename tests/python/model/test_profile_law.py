@@ -13,14 +13,6 @@ GEL = pn.ProfileLaw(depth=[0, 0.01, 0.03], lower=[0, -0.5, -0.2], upper=[0.1, 0.
 WALL = pn.ProfileLaw([0, 3e-3, 3e-3, 5e-3], [-0.1, -0.7, -0.4, -0.3], [0, 0.1, 0.4, 0.3], 1e-3, 0.4)
 
 
-def test_a_thin_wall_has_the_profile_itself() -> None:
-    q = np.array([-1e-3, 0, 5e-3, 0.01, 0.02, 0.05])
-    lower, upper = GEL.bounds(q)
-    assert np.allclose(lower[1:], np.interp(q[1:], GEL.depth, GEL.lower)) and lower[0] == 0
-    assert np.allclose(upper[1:], np.interp(q[1:], GEL.depth, GEL.upper)) and upper[0] == 0
-    assert GEL.bounds(0.05) == (-0.2, 0.2)
-
-
 def test_the_force_is_linear_in_the_knots_values() -> None:
     q = np.linspace(-1e-3, 9e-3, 50).reshape(5, 10)
     weights = WALL.weights(q)

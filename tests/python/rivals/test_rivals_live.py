@@ -75,19 +75,6 @@ def test_a_rival_that_this_version_does_not_know_is_told(tmp_path):
             _ = RecordingInfo(info.data, checked, tmp_path / "run.parquet").rivals
 
 
-def test_rivals_are_one_or_one_for_each_membrane():
-    device = SimulatedDevice(STROKES)
-    many = [Rival("dahl")] * (WALLS + 1)
-    with pytest.raises(pn.ConfigurationError, match=f"one for each of the {WALLS} membranes"):
-        ServoLoop(device, SCENE, rivals=many)
-    loop = ServoLoop(device, SCENE, rivals=[Rival("dahl")] * WALLS)
-    wider = pn.load_scene("venipuncture")
-    if len(wider.membranes) not in (1, WALLS):
-        with pytest.raises(pn.ConfigurationError, match="rivals"):
-            loop.exchange(wider)
-    assert loop.scene.membranes == SCENE.membranes
-
-
 def test_limits_and_the_automatic_scale_act_on_a_rival(tmp_path):
     strong = Rival("dahl", {"friction": 20.0})
     limited = felt(tmp_path / "a.parquet", [strong])

@@ -2,7 +2,7 @@
 
 import pytest
 from punctura import ConfigurationError, load_scene, save_scene
-from punctura._core import ForceLimits, force_scale, largest_force, lasting_force
+from punctura._core import ForceLimits, force_scale
 from punctura.scene import DisplaySettings, scene_json_schema, scene_text
 from punctura.studio.loaded import from_text
 
@@ -27,15 +27,6 @@ def test_a_scale_is_read_written_and_read_again(write, tmp_path, value):
     save_scene(scene, tmp_path / "again.toml")
     assert load_scene(tmp_path / "again.toml") == scene
     assert from_text(from_text((tmp_path / "again.toml").read_text()).text()).scene == scene
-
-
-def test_the_automatic_scale_follows_the_limits(write):
-    scene = load_scene(write(display('"automatic"')))
-    largest = largest_force(scene)
-    weak = ForceLimits(max_force=largest / 4)
-    assert lasting_force(weak) == largest / 4
-    assert force_scale(scene, weak) == pytest.approx(0.95 / 4)
-    assert force_scale(scene, ForceLimits(max_force=99, continuous_force=99)) == 1
 
 
 @pytest.mark.parametrize(

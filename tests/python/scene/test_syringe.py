@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from punctura import ConfigurationError, Coupling, load_scene, save_scene
-from punctura._core import Fault, GateLimits, ServoLoop, SimulatedDevice, ThumbLoop
+from punctura._core import ServoLoop, SimulatedDevice
 from punctura.record import Recorder, open_recording, replay
 from punctura.simulation import Target
 from punctura.syringe import Outlet, Syringe, SyringeSettings
 from recorded import run_to_end
-from waiting import LATE_ALLOWED, wait_until
+from waiting import wait_until
 
 SYRINGE = SyringeSettings(Syringe(15e-3, 4e-6, 0.3e-6, 0.5, 1e-12, 2e9), Coupling(1500, 1))
 
@@ -84,16 +84,6 @@ def test_a_run_records_the_syringe_and_a_run_without_one_records_nan():
         assert np.isnan(ticks.thumb_force).all() != has
 
 
-def test_a_simulated_thumb_injects_in_open_air():
-    device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=3200)
-    loop = ServoLoop(device, with_syringe())
-    listener = loop.listen()
-    loop.push_plunger(3)
-    ticks = run(loop, device, listener)
-    assert ticks.injected[-1] > 0.1e-6
-    assert (np.diff(ticks.thumb) >= 0).all()
-
-
 def test_a_replay_has_the_recorded_thumb_and_so_the_same_plunger(tmp_path):
     device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=1600)
     loop = ServoLoop(device, with_syringe())
@@ -104,23 +94,3 @@ def test_a_replay_has_the_recorded_thumb_and_so_the_same_plunger(tmp_path):
     assert ticks.thumb[-1] > 0 and ticks.injected[-1] > 0
     result = replay(tmp_path / "run.parquet")
     assert (result.ticks, result.identical, result.complete) == (1600, True, True), result
-
-
-def test_one_device_cannot_be_both_hands():
-    device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=10)
-    with pytest.raises(ValueError, match="a device of its own"):
-        ServoLoop(device, with_syringe(), thumb=ThumbLoop(device))
-    with pytest.raises(ConfigurationError):
-        ThumbLoop(device, direction=[0, 0, 0])
-
-
-def test_a_thumb_device_moves_the_plunger():
-    patient = GateLimits(**LATE_ALLOWED)
-    needle, hand = SimulatedDevice(Target([0, 5e-3, 0])), SimulatedDevice(Target([0, 0, 0]))
-    thumb = ThumbLoop(hand, gate=patient)
-    loop = ServoLoop(needle, with_syringe(), patient, thumb=thumb)
-    with loop:
-        loop.start()
-        hand.move_to([0, -3e-3, 0])
-        wait_until(lambda: loop.latest()["thumb"][0] > 1e-3)
-        assert loop.latest()["fault"][0] == Fault.none and thumb.ticks > 0
