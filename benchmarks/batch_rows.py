@@ -1,7 +1,5 @@
 """The rows of many trials at once: measured by bench_batch, printed as text."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from collections.abc import Iterator

@@ -5,8 +5,6 @@ python benchmarks/batches.py [--json FILE] [--pictures FOLDER] [--seconds S] [--
 docs/performance.md has the figures.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

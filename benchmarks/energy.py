@@ -7,8 +7,6 @@ start. `model` sums the work f(k).(x(k) - x(k-1)), which the discrete-time model
 work on the hand, f(k).(x(k+1) - x(k)). The difference is the cost of holding. Negative work is dissipated.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -7,8 +7,6 @@ the net work on the hand over a closed way from outside to outside, as a share o
 of |f dp|. Negative: work is lost on each way that was tried. Without the steps of time none can be positive.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import warnings

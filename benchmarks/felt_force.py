@@ -6,8 +6,6 @@ Prints the table of the page, and draws its picture. A rigid drive pushes the ne
 through the servo step of a live run with its limits. Positions have no encoder steps.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import NamedTuple

@@ -7,8 +7,6 @@ are stored for each version of a compiler and each processor architecture in ins
 fails if a count has grown; with a compiler that has no stored counts, it says so and compares nothing.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -1,7 +1,5 @@
 """A straightforward K06 (33): a law on NumPy arrays and a loop over the ticks. Written for clarity, not optimised."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

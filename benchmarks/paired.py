@@ -6,8 +6,6 @@ Both programs are compiled now, with the same compiler and flags. A row is "slow
 each round, is above 1.05. The ratios are of the fastest repetition of each program in a round.
 """
 
-from __future__ import annotations
-
 import argparse
 import statistics
 import subprocess

@@ -8,8 +8,6 @@ at more than 3 mm/s in any of many grips. `45 g` is the greatest speed of a devi
 mm/s rms. The last columns have the Omni's encoder and the dry friction n K step: this friction, N, and that speed.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Iterator

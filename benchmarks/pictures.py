@@ -3,8 +3,6 @@
 python benchmarks/pictures.py RESULTS.json --out FOLDER     from the file of ./bench --json
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -3,8 +3,6 @@
 python benchmarks/pop_time.py [--check] [--write]      # --write puts the table into docs/pop-time.md
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

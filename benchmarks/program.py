@@ -1,7 +1,5 @@
 """Builds and runs the C++ part of the measurements."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The targets of the measurements."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

@@ -7,8 +7,6 @@ python benchmarks/run.py [--check] [--json FILE] [--pictures FOLDER] [--seconds 
     [--wakeup-seconds S]
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

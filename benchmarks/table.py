@@ -1,7 +1,5 @@
 """Prints the measurements as text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

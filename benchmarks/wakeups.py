@@ -1,7 +1,5 @@
 """Measures the wake-up latency of servo loop and cyclictest, at the same time on the same CPU. See docs/bench.md."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

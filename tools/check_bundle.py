@@ -1,7 +1,5 @@
 """Checks the gzipped size of the studio's page: of all its files, and of those that it needs for its first picture."""
 
-from __future__ import annotations
-
 import gzip
 import re
 import sys

@@ -5,8 +5,6 @@
 - The test of every row exists: `tests/python/x.py::test_name`, or `tests/core/x.cpp: name of the test case`.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 import sys

@@ -4,8 +4,6 @@ Directly, or by our headers that it includes. A compiler finds only some of them
 another one; and with a precompiled header it finds none.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from functools import cache

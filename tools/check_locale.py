@@ -1,7 +1,5 @@
 """Checks that C++ code converts decimal numbers only with decimal.hpp: the functions of C follow the locale."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Checks that files include or import only files of their own and of higher rooms (docs/architecture.md)."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from pathlib import Path

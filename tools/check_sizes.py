@@ -3,8 +3,6 @@
 A line with a web address may be longer, and generated files are not checked.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Starts the system's Chromium without a window and without a graphics card."""
 
-from __future__ import annotations
-
 import shutil
 
 from playwright.sync_api import Browser, BrowserContext, Playwright

@@ -5,8 +5,6 @@ Fails on a crash, a hang, growing memory, an error other than RecordingError, or
 python tools/fuzz_recordings.py --minutes 10
 """
 
-from __future__ import annotations
-
 import argparse
 import faulthandler
 import json

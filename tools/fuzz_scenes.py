@@ -6,8 +6,6 @@
 Each resulting Scene is written and read again, and must be identical to the last bit.
 """
 
-from __future__ import annotations
-
 import argparse
 import faulthandler
 import random

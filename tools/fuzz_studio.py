@@ -7,8 +7,6 @@ traceback, if no request meets a defect, if its memory grows by less than 5 % in
 lost.
 """
 
-from __future__ import annotations
-
 import argparse
 import base64
 import contextlib

@@ -1,7 +1,5 @@
 """Shared by the tools that generate files of the tree."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Finds the includes and imports of all files in the tree, and the file that each one refers to."""
 
-from __future__ import annotations
-
 import ast
 import posixpath
 import re

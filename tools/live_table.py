@@ -3,8 +3,6 @@
 Prints the table of docs/live-estimate.md. Takes about a minute. `--runs` sets the number of membranes for each row.
 """
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass, field
 

@@ -6,8 +6,6 @@ python tools/make_c_bindings.py --check  fails if these files are out of date
 C# and Rust get the functions and structs that their binding (Punctura.cs, lib.rs) names.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import sys

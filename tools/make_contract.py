@@ -7,8 +7,6 @@ frames.json: frames of ticks, as base64, with their content (null is NaN). Frame
 messages.json: a valid example of each message and request, and invalid requests.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

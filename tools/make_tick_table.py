@@ -4,8 +4,6 @@ python tools/make_tick_table.py          writes docs/tick.md, and tick_table.ts 
 python tools/make_tick_table.py --check  fails if these files are out of date
 """
 
-from __future__ import annotations
-
 import json
 import sys
 

@@ -7,8 +7,6 @@ still. In the blind exercise it counts the pops that it feels. As a person, it t
 for each exercise; the exit status is 1 if one was not passed.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """Resident memory of a process, for soak tests and fuzzers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 

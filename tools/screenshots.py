@@ -4,8 +4,6 @@ python tools/screenshots.py [--out FOLDER] [NAME ...]                  those of 
 python tools/screenshots.py --all-states --out FOLDER [NAME ...]       every state, light and dark, at four widths
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import os

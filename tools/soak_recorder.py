@@ -7,8 +7,6 @@ must not block the name for the next process. A quarter is killed while recordin
 process reports its present tick through shared memory.
 """
 
-from __future__ import annotations
-
 import argparse
 import mmap
 import os

@@ -9,8 +9,6 @@ request with the token is answered, if memory grows by at most MOST_GROWTH_MB (M
 token), and if the recording is finished and another one can begin.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import multiprocessing

@@ -10,8 +10,6 @@ less than 5 % after the warm-up (the first tenth of the run), and if a plot is d
 busy page draws each plot 15 times at most.)
 """
 
-from __future__ import annotations
-
 import argparse
 import base64
 import os

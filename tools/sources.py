@@ -1,7 +1,5 @@
 """Shared by the tree checks: the project's own files, and the form of a finding."""
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Callable
 from pathlib import Path

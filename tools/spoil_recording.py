@@ -1,7 +1,5 @@
 """Makes recordings with an invalid description and a right checksum, which a reader must reject with a message."""
 
-from __future__ import annotations
-
 import copy
 import json
 import random

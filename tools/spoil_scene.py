@@ -1,7 +1,5 @@
 """Makes broken and unusual scene files for tools/fuzz_scenes.py."""
 
-from __future__ import annotations
-
 import random
 import re
 from collections.abc import Callable

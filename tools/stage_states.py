@@ -1,7 +1,5 @@
 """The states of the stage that screenshots show, and how a person gets there."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

@@ -3,8 +3,6 @@
 Each storm connects only to loopback, runs in its own process, and ends on request or after the given time.
 """
 
-from __future__ import annotations
-
 import base64
 import contextlib
 import os

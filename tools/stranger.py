@@ -8,8 +8,6 @@ at the pop again, slowly. With --keys there is no mouse: the person presses Tab 
 the needle. Nothing here knows the page's structure: texts and roles only.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import statistics

@@ -1,7 +1,5 @@
 """The states of the studio that its screenshots and checks of accessibility show, and how a person gets there."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -7,8 +7,6 @@ and a program reads the same ticks at once. Prints by how much the page is behin
 message with ticks, and when it draws the view. A tick waits for up to 17 ms in the studio until it is sent at all.
 """
 
-from __future__ import annotations
-
 import argparse
 import statistics
 import sys

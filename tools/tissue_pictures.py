@@ -3,8 +3,6 @@
 python tools/tissue_pictures.py
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import matplotlib

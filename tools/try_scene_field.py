@@ -6,8 +6,6 @@ The new number must appear in scene files, the JSON Schema, the editor's form, P
 the force, after at most 8 changed lines in 6 files.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

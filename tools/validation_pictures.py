@@ -5,8 +5,6 @@
 No picture shows a sample of a measured trace.
 """
 
-from __future__ import annotations
-
 import argparse
 import runpy
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Waits for a condition with a time limit, for tests and tools."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import TypeVar

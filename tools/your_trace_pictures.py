@@ -5,8 +5,6 @@
 Prints what `identify` would say of each fit. Takes some seconds.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from dataclasses import replace

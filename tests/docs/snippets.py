@@ -19,8 +19,6 @@ What a block needs and the reader does not is put into an invisible block before
 <!-- invisible-code-block: python ... -->. All other blocks fail: an indented block, one without a language.
 """
 
-from __future__ import annotations
-
 import ast
 import atexit
 import contextlib

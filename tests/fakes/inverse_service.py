@@ -5,8 +5,6 @@ force lasts until the next message, but not longer than `persists`. The WebSocke
 independent of Punctura's own.
 """
 
-from __future__ import annotations
-
 import asyncio
 import http
 import json

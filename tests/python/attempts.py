@@ -1,7 +1,5 @@
 """Exercise attempts by a simulated hand, and needle motions known to the micrometre."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable, Iterable
 from functools import cache

@@ -1,7 +1,5 @@
 """The public classes of punctura."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import pkgutil

@@ -1,7 +1,5 @@
 """Needle runs in the columns of a listener, for the tests of events and exercises."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

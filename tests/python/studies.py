@@ -1,7 +1,5 @@
 """A plan of a small study, and a study that ends before its chunks are joined."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

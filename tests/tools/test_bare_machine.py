@@ -1,7 +1,5 @@
 """Checks the parts of tools/bare_machine.sh that need no new system."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The build back-end for pip, tools/build_backend, with an artificial PATH and scikit-build-core."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

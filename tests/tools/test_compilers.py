@@ -1,7 +1,5 @@
 """The compilers for which a warning is an error."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -6,8 +6,6 @@ CMakeLists.txt defines the version; files that cannot read it from there have th
 only what is in a commit.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The set-up of ./run and ./test, with an artificial uv."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

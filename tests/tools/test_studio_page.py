@@ -1,7 +1,5 @@
 """tools/build_backend/studio_page.py with a script in place of Node."""
 
-from __future__ import annotations
-
 import stat
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Each check of the source tree passes on a good tree, and reports problem and place on a bad one."""
 
-from __future__ import annotations
-
 import importlib
 import platform
 import subprocess

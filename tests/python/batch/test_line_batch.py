@@ -1,7 +1,5 @@
 """Batches of proxies on a line."""
 
-from __future__ import annotations
-
 import os
 import signal
 import threading

@@ -1,7 +1,5 @@
 """punctura.batch: each trial has the numbers of the same trial alone."""
 
-from __future__ import annotations
-
 import numpy as np
 import pyarrow as pa
 import pytest

@@ -1,7 +1,5 @@
 """With NumPy and pydantic alone the physics runs; what needs another package says which, and how to install it."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import json
 import re

@@ -1,7 +1,5 @@
 """Exercises in files of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

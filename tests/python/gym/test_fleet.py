@@ -1,7 +1,5 @@
 """The Fleet: many experiments, stepped in lanes and on threads."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The Gymnasium environments: Gymnasium's own checker, equal bits of single and vector, the rules, populations."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 import sys

@@ -1,7 +1,5 @@
 """The law of a profile."""
 
-from __future__ import annotations
-
 import pickle
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """The law of measured tissue, from Python."""
 
-from __future__ import annotations
-
 import pickle
 
 import numpy as np

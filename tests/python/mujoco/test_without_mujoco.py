@@ -3,8 +3,6 @@
 integrations/mujoco/test.sh tests the rest.
 """
 
-from __future__ import annotations
-
 import sys
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Each public class with a state continues with the same bits after copy, deepcopy, pickle and `state`."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Makes the figures once for all tests."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The command reproduce: works from any folder, is repeatable, and reports failures."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

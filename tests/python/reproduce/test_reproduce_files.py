@@ -1,7 +1,5 @@
 """The files that `punctura reproduce` writes."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

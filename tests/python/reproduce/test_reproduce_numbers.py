@@ -1,7 +1,5 @@
 """Compares the numbers in the figures' CSV files with the law."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The conversion of tick phases to stages of a stroke."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from punctura import Phase

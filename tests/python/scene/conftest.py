@@ -1,7 +1,5 @@
 """A valid scene file for tests that change it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Motions to simulate."""
 
-from __future__ import annotations
-
 import numpy as np
 
 RATE = 1600.0

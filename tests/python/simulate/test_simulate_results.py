@@ -1,7 +1,5 @@
 """The file that comes out holds what the model computes, row by row."""
 
-from __future__ import annotations
-
 import csv
 
 import numpy as np

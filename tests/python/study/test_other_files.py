@@ -1,7 +1,5 @@
 """The files in the folder of a study that are not of its plan, or have changed since."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

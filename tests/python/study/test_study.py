@@ -1,7 +1,5 @@
 """punctura study: plans, rows that do not depend on threads or interruptions, and one row again, alone."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
