@@ -271,7 +271,7 @@ docs_snippets() {
 }
 docs_site() {
   if has_run examples; then export PUNCTURA_EXAMPLES=$root/build/dev/examples; fi
-  python docs/site/build.py
+  python docs/site/build.py --quick
 }
 # has_run STEP: a step before has compiled what build/dev has for it.
 has_run() { [ -n "$(chosen_of "$1")" ]; }

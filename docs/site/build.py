@@ -1,6 +1,7 @@
 """Builds the site: prepares the pages, generates the reference and the gallery, runs Sphinx, checks the result.
 
-    docs/build            into build/docs/html
+    docs/build                          into build/docs/html
+    python docs/site/build.py --quick   to check it: no page is marked in its own sidebar, as conf.py says
 
 Any warning of Sphinx is an error: a broken link, a notebook that fails, a docstring that cannot be read.
 """
@@ -28,7 +29,7 @@ def write(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-def main() -> int:
+def main(quick: bool) -> int:
     source, html = OUT / "source", OUT / "html"
     shutil.rmtree(html, ignore_errors=True)
     lay_out(source)
@@ -40,22 +41,8 @@ def main() -> int:
     write(source / "reference" / "scene-keys.md", pages.scene_keys_page())
     write(source / "reference" / "studio-style.md", studio_style.page())
     gallery.write(source / "gallery")
-    code = sphinx(
-        [
-            "-q",
-            "-W",
-            "--keep-going",
-            "-j",
-            "2",
-            "-E",
-            "-c",
-            str(SITE),
-            "-d",
-            str(OUT / "doctrees"),
-            str(source),
-            str(html),
-        ]
-    )
+    how = ["-q", "-W", "--keep-going", "-E", *(["-t", "quick"] if quick else ["-j", "2"])]
+    code = sphinx([*how, "-c", str(SITE), "-d", str(OUT / "doctrees"), str(source), str(html)])
     findings = [*check.findings(html), *wordless.findings(html)]
     for finding in findings:
         print(finding)
@@ -66,4 +53,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main("--quick" in sys.argv[1:]))
