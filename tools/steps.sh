@@ -214,8 +214,9 @@ use_it() {
 # The instructions of a tick, counted by valgrind, are not more than the stored ones.
 step_instructions() { python benchmarks/instructions.py --check; }
 
-# A sixteenth of the random cases; the step `statistics` draws all of them.
-step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/16}" python_tests -n 3 --dist loadgroup; }
+# A sixteenth of the random cases; the step `statistics` draws all of them. Each worker imports and finds all tests,
+# which takes 17 s of a processor.
+step_python() { PUNCTURA_CASES="${PUNCTURA_CASES:-1/16}" python_tests -n 2 --dist loadgroup; }
 python_tests() {
   local but=()
   if ! has_siconos; then

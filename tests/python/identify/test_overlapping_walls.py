@@ -19,7 +19,7 @@ def overlapping(seed):
     return TOOL["random_trace"](seed, TOOL["Conditions"](noise=NOISE, walls=2, apart=0.5, rate=50))
 
 
-@pytest.mark.parametrize("every", [1, pytest.param(2, marks=pytest.mark.statistics)])
+@pytest.mark.parametrize("every", [pytest.param(1, marks=pytest.mark.statistics), 2])
 def test_both_walls_are_found_whether_all_samples_are_used_or_half_of_them(every):
     trace, needle, truth = overlapping(2)
     found = identify(trace[::every], needle)

@@ -27,7 +27,7 @@ def test_whitened_noise_is_white_and_the_last_sample_keeps_its_size(mixture):
     np.testing.assert_allclose(whitening.back(np.eye(n)), whole.T, atol=1e-12)
 
 
-@pytest.mark.parametrize("seed", [2, 20023])
+@pytest.mark.parametrize("seed", [2, pytest.param(20023, marks=pytest.mark.statistics)])
 def test_a_random_walk_that_the_air_shows_is_no_wall_and_leaves_narrow_intervals(seed):
     made, needle, truth = TOOL["random_trace"](seed, TOOL["Conditions"](machine=True, walk=0.03))
     found = identify(made, needle)
