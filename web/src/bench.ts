@@ -2,7 +2,7 @@ import "./bench.css";
 import { arrange } from "./controls/arrange/arrange.ts";
 import { editorPanel } from "./controls/editor.ts";
 import { exercisesPanel, whenOneRuns } from "./controls/exercises.ts";
-import { faultTrial } from "./controls/fault_trial.ts";
+import { faultTrial } from "./controls/fault_banner.ts";
 import { handPanel } from "./controls/hand.ts";
 import { headerBar } from "./controls/header.ts";
 import { healthPanel } from "./controls/health.ts";

@@ -9,3 +9,5 @@ export const mm = (metres: number, places = 2): string => `${(metres * 1e3).toFi
 export const newton = (force: number, places = 2): string => `${force.toFixed(places)} N`;
 /** The same words, with no line break between a number and its unit. */
 export const unbroken = (text: string): string => text.replace(/(\d) (?=(N|mN|mm|mL|s|degrees)\b)/g, "$1\u00a0");
+/** What an error says. */
+export const errorText = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -26,6 +26,13 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** A button. title: more than its words say; may be empty. kind: its classes. */
+export function button(words: string, title: string, act: () => void, kind = "small"): HTMLButtonElement {
+  const named = /[a-z]{2}/i.test(words); // words are their own name for a screen reader and for voice control
+  const name = named || title === "" ? {} : { "aria-label": title };
+  return element("button", { type: "button", class: kind, title: title || false, ...name, onclick: act }, words);
+}
+
 /** Makes an element show a name of any length: cut after two lines, the whole when the pointer rests on it. */
 export function named<E extends HTMLElement>(host: E, name: string): E {
   host.classList.add("name");

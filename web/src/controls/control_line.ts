@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { button, element } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
 
@@ -18,15 +18,11 @@ export function controlLine(app: App): HTMLElement {
 
 /** The button Take control; hidden while this page has control. */
 export function takeControl(app: App): HTMLButtonElement {
-  const button = element(
-    "button",
-    { type: "button", class: "button", onclick: () => void app.ask({ do: "take_control" }) },
-    "Take control",
-  );
+  const take = button("Take control", "", () => void app.ask({ do: "take_control" }), "button");
   const show = (): void => {
-    button.hidden = app.control.value.you || app.connection.value.state !== "open";
+    take.hidden = app.control.value.you || app.connection.value.state !== "open";
   };
   app.control.watch(show);
   app.connection.watch(show);
-  return button;
+  return take;
 }

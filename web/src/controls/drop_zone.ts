@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { button, element } from "../panel.ts";
 
 /** The files that a zone takes. */
 export interface Kind {
@@ -24,7 +24,7 @@ const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.incl
  */
 export function dropZone(kind: Kind, take: (file: File) => void): HTMLElement {
   const input = element("input", { type: "file", accept: kind.accept, hidden: true, "aria-label": kind.label });
-  const choose = element("button", { type: "button", class: "small", onclick: () => input.click() }, kind.button);
+  const choose = button(kind.button, "", () => input.click());
   input.addEventListener("change", () => {
     const [file] = input.files ?? [];
     if (file) take(file);

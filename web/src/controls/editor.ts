@@ -1,4 +1,5 @@
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { errorText } from "../format.ts";
+import { button, element, everyFrame, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
@@ -6,11 +7,9 @@ import { Draft } from "./editor/draft.ts";
 import { type SceneForm, sceneForm, type Table } from "./editor/fields.ts";
 import { sceneTools } from "./editor/files.ts";
 import { group, type Inputs, showAll } from "./editor/group.ts";
-import { helpLine } from "./editor/help_line.ts";
 import { lawDrawing } from "./editor/laws.ts";
 import { MembraneList } from "./editor/membranes.ts";
 import { sortProblems } from "./editor/problems.ts";
-import { type ReportLine, report } from "./editor/report.ts";
 import { solverControl } from "./editor/solver.ts";
 import { duplicated, membranes, withMembranes } from "./editor/tables.ts";
 
@@ -31,7 +30,7 @@ export const editorPanel: Panel = (host, app) => {
       build(host, app, form);
     } catch (error) {
       asked = false;
-      wait.textContent = `Cannot load the scene’s form: ${error instanceof Error ? error.message : String(error)}`;
+      wait.textContent = `Cannot load the scene’s form: ${errorText(error)}`;
     }
   });
 };
@@ -44,11 +43,7 @@ function build(host: HTMLElement, app: App, form: SceneForm): void {
   if (!membraneTable) throw new Error("the schema has no list of membranes");
 
   const list = new MembraneList(membraneTable, draft);
-  const add = element(
-    "button",
-    { type: "button", class: "small", onclick: () => addMembrane(draft, list) },
-    "Add a membrane",
-  );
+  const add = button("Add a membrane", "", () => addMembrane(draft, list));
   const top = group({ fields: form.fields, pairs: [] }, [], draft);
   const parts = single.map((table) => ({ table, ...group(table, [table.key], draft, ["solver"]) }));
   const inputs = (): Inputs => new Map([...top.inputs, ...parts.flatMap((part) => [...part.inputs]), ...list.inputs]);
@@ -191,4 +186,37 @@ function figuresLink(app: App): HTMLElement {
     missing.hidden = hello?.figures ?? false;
   });
   return element("p", { class: "quiet pad figures" }, made, missing);
+}
+
+/** One place for the help of the field under the pointer or focus, because there is no space for help at each field. */
+function helpLine(form: HTMLElement, standing: string): HTMLElement {
+  const line = element("p", { class: "help-line", "aria-hidden": "true" }, standing);
+  const look = (target: EventTarget | null): void => {
+    const field = target instanceof Element ? target.closest<HTMLElement>("[data-help]") : null;
+    line.textContent = field?.dataset.help || standing;
+  };
+  form.addEventListener("pointerover", (event) => look(event.target));
+  form.addEventListener("pointerleave", () => look(document.activeElement));
+  form.addEventListener("focusin", (event) => look(event.target));
+  return line;
+}
+
+interface ReportLine {
+  readonly text: string;
+  /** Opens the field, if it is hidden. */
+  readonly go?: () => void;
+}
+
+/** A list of the problems that no visible field shows. Hidden while it is empty. */
+function report(): { root: HTMLElement; show(lines: readonly ReportLine[]): void } {
+  const root = element("div", { class: "report", role: "alert", hidden: true });
+  return {
+    root,
+    show: (lines) => {
+      root.hidden = lines.length === 0;
+      root.replaceChildren(
+        ...lines.map(({ text, go }) => element("p", {}, text, ...(go ? [" ", button("Show", "", go, "link")] : []))),
+      );
+    },
+  };
 }

@@ -1,5 +1,6 @@
+import { errorText } from "../format.ts";
 import { tellAwake } from "../hand/awake.ts";
-import { element, keptList, named, type Panel } from "../panel.ts";
+import { button, element, keptList, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { backToStage, pageOf } from "../state/page.ts";
 import { resultPath } from "../wire/api.ts";
@@ -79,13 +80,7 @@ export const exercisesPanel: Panel = (host, app) => {
       showGoal(app, of);
       showTitle();
     } catch (error) {
-      list.replaceChildren(
-        element(
-          "p",
-          { class: "quiet" },
-          `Cannot load the exercises: ${error instanceof Error ? error.message : String(error)}`,
-        ),
-      );
+      list.replaceChildren(element("p", { class: "quiet" }, `Cannot load the exercises: ${errorText(error)}`));
     }
   };
   app.connection.watch(async (state) => {
@@ -121,7 +116,7 @@ export const exercisesPanel: Panel = (host, app) => {
     try {
       open(await app.api.json<Result>(resultPath(status.result)));
     } catch (error) {
-      app.notify(`Cannot load the result: ${error instanceof Error ? error.message : String(error)}`);
+      app.notify(`Cannot load the result: ${errorText(error)}`);
     }
   });
 };
@@ -152,7 +147,7 @@ function card(
       {},
       named(element("h3"), title),
       // A file with a problem can be started too: it is read again, and may be corrected by then.
-      element("button", { type: "button", class: "small primary", onclick: start }, wrong ? "Try again" : "Start"),
+      button(wrong ? "Try again" : "Start", "", start, "small primary"),
     ),
     ...(wrong ? [problemList("problems", exercise.problems)] : []),
     ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
@@ -167,20 +162,19 @@ function card(
 
 /** A button that deletes the file of an exercise, after a second button is pressed. */
 function deletePart(app: App, { name }: ExerciseOverview, changed: () => void): HTMLElement {
-  const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
-    element("button", { type: "button", class: `small ${kind}`, onclick: act }, label);
   const sure = element("span", { class: "tools sure", hidden: true });
   const ask = (open: boolean): void => {
     sure.hidden = !open;
     remove.hidden = open;
     (open ? keep : remove).focus();
   };
-  const remove = button("Delete this file", () => ask(true));
-  const keep = button("Cancel", () => ask(false));
+  const remove = button("Delete this file", "", () => ask(true));
+  const keep = button("Cancel", "", () => ask(false));
   const really = button(
     "Delete permanently",
+    "",
     () => void app.ask({ do: "delete_exercise", name }).then(changed),
-    "danger",
+    "small danger",
   );
   sure.append(keep, really);
   return element("div", { class: "tools" }, remove, sure);

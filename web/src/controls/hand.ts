@@ -1,7 +1,10 @@
+import type { Hand } from "../hand/hand.ts";
 import { handOf } from "../hand/hand.ts";
 import type { Panel } from "../panel.ts";
+import { element } from "../panel.ts";
+import type { App } from "../state/app.ts";
+import { takeControl } from "./control_line.ts";
 import { angleRow } from "./hand/angle.ts";
-import { whyBarred } from "./hand/barred.ts";
 import { keyHelp, placeRows } from "./hand/place.ts";
 import { plungerRows } from "./hand/plunger.ts";
 import { scriptRows } from "./hand/scripts.ts";
@@ -17,3 +20,15 @@ export const handPanel: Panel = (host, app) => {
     fields.disabled = why !== null;
   });
 };
+
+/** Tells why this page cannot move the hand, or how to move it. */
+function whyBarred(app: App, hand: Hand): HTMLElement {
+  const words = element("p", {});
+  const box = element("div", { class: "hand-why" }, words, takeControl(app));
+  hand.barred.watch((why) => {
+    words.textContent =
+      why ?? "Drag the needle in the view. It lags while tissue holds it, and jumps when the tissue gives way.";
+    box.classList.toggle("barred", why !== null);
+  });
+  return box;
+}

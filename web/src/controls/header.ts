@@ -1,9 +1,10 @@
 import { element, keptList, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { pageOf, show } from "../state/page.ts";
-import { keep, storage } from "../state/storage.ts";
+import { keep, storage } from "../state/remembered.ts";
 import type { Choice } from "../wire/messages.ts";
-import { layoutMenu } from "./arrange/layout_menu.ts";
+import { arrangementsOf } from "./arrange/arrange.ts";
+import { menu } from "./arrange/menu.ts";
 import { controlLine } from "./control_line.ts";
 import { stateButton } from "./state_button.ts";
 import { startTour } from "./tour.ts";
@@ -162,4 +163,20 @@ function connectionLine(app: App): HTMLElement {
   });
   setInterval(show, LOOK_MS);
   return line;
+}
+
+/** The menu Layout of the header. */
+function layoutMenu(app: App): HTMLElement {
+  const all = arrangementsOf(app);
+  return menu("Layout", "Layout", () => {
+    const { projector } = all.now.value;
+    return [
+      [
+        projector ? "All panels" : "Projector: view and one plot, large",
+        () => all.set({ projector: !projector }),
+        "Alt+P",
+      ],
+      ["Default layout", () => all.reset()],
+    ];
+  });
 }

@@ -4,7 +4,7 @@ import type { Spread, Status } from "../wire/messages.ts";
 import { drawHistogram } from "./histogram.ts";
 import { limitList, number } from "./limit_figures.ts";
 import { RateMeter } from "./rate.ts";
-import { servoState } from "./servo_state.ts";
+import { servoState } from "./state_button.ts";
 import { STATES } from "./words.ts";
 
 const MANY_LATE = 1e-4; // share of the ticks

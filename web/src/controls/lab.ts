@@ -1,4 +1,5 @@
-import { element, type Panel } from "../panel.ts";
+import { errorText } from "../format.ts";
+import { button, element, type Panel } from "../panel.ts";
 import type { RecordingEntry, Result, SceneField } from "../wire/messages.ts";
 import { plainPaths } from "./editor/problems.ts";
 import { estimatePart } from "./lab/estimate.ts";
@@ -9,7 +10,6 @@ import { openComparison } from "./lab/result.ts";
 import { tracePart } from "./lab/trace/part.ts";
 import { varyForm } from "./lab/vary.ts";
 import { needsStudio } from "./needs_studio.ts";
-import { wordsOf } from "./recordings/library.ts";
 
 const MOST_IN_LINE = 3; // of this page: a browser has six connections to a server, and the page needs some
 
@@ -36,7 +36,7 @@ const comparisons: Panel = (host, app) => {
     const names = membraneNames();
     const bar = element("progress", { max: 1, value: 0, "aria-label": `Progress: ${title}` });
     const words = element("span", { class: "quiet" }, `${title}: computing…`);
-    const cancel = element("button", { type: "button", class: "small", onclick: () => stop.abort() }, "Cancel");
+    const cancel = button("Cancel", "", () => stop.abort());
     const row = element("div", { class: "tools progress", role: "status" }, bar, words, cancel);
     inLine.append(row);
     try {
@@ -48,7 +48,7 @@ const comparisons: Panel = (host, app) => {
       const statistics = done.statistics.map((run) => ({ ...run, name: runWords(run.name, names) }));
       openComparison(app, job, title, { ...done, statistics });
     } catch (error) {
-      if (!stop.signal.aborted) trouble.append(`${title}: ${plainPaths(wordsOf(error))} `);
+      if (!stop.signal.aborted) trouble.append(`${title}: ${plainPaths(errorText(error))} `);
     } finally {
       row.remove();
     }
@@ -67,7 +67,7 @@ const comparisons: Panel = (host, app) => {
       const fields = await app.api.json<SceneField[]>("/api/lab/fields");
       vary.offer(fields, entries, membraneNames());
     } catch (error) {
-      trouble.textContent = wordsOf(error);
+      trouble.textContent = errorText(error);
     }
   };
   // The panel reads its lists whenever it is opened, and while it is open, when the scene changes.

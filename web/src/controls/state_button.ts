@@ -4,9 +4,9 @@ import { controlWords } from "../state/control.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { TURN_ON, waitingFor } from "./fault_steps.ts";
-import { FAULTED, servoState } from "./servo_state.ts";
 import { CUT, STATES } from "./words.ts";
 
+const FAULTED = codeOf("state", "faulted");
 const DISARMED = codeOf("state", "disarmed");
 const ACTIVE = codeOf("state", "active");
 const WAITING = codeOf("state", "waiting");
@@ -60,4 +60,12 @@ export function stateButton(app: App): HTMLElement {
     enable();
   });
   return element("span", { class: "arming" }, state, button);
+}
+
+/** The number of the servo's present state (see STATES); -1 without a connection or a tick. */
+export function servoState(app: App): number {
+  const { history } = app.live;
+  if (!history.length || app.connection.value.state !== "open") return -1;
+  // A device that has stopped sends no tick with the state "faulted".
+  return app.fault.value ? FAULTED : (history.byteRow("state", history.end - 1)[0] ?? 0);
 }

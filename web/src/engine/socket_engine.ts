@@ -1,3 +1,4 @@
+import { errorText } from "../format.ts";
 import { Api, ApiError, type Fetch } from "../wire/api.ts";
 import { framesOf } from "../wire/length_prefixed.ts";
 import { parseMessage } from "../wire/parse.ts";
@@ -166,7 +167,7 @@ export class SocketEngine implements Engine {
     try {
       return framesOf(data).map((frame) => decodeTicks(frame));
     } catch (error) {
-      this.complain(error instanceof Error ? error.message : String(error));
+      this.complain(errorText(error));
       return [];
     }
   }

@@ -1,11 +1,9 @@
 import type { Triple } from "../engine/engine.ts";
-import type { App } from "../state/app.ts";
+import { type App, onePerApp } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
-import { onePerApp } from "../state/one_per_app.ts";
 import { Signal } from "../state/signal.ts";
-import type { HandPose } from "../wire/messages.ts";
-import { aiming, heightOver } from "./aim.ts";
-import { add, alongSkin, length, scaled, sub, tilted, tiltOf, towardsViewer, unit } from "./vectors.ts";
+import type { HandPose, SceneView } from "../wire/messages.ts";
+import { add, alongSkin, dot, length, scaled, sub, tilted, tiltOf, towardsViewer, unit } from "./vectors.ts";
 
 const FARTHEST = 0.25; // m from the scene's origin; larger distances are input errors
 /**
@@ -172,3 +170,23 @@ export class Hand {
 
 /** The hand of this page; there is one per app. */
 export const handOf = onePerApp((app) => new Hand(app));
+
+/** Distance in front of the first membrane, m; negative behind its front face. */
+function heightOver(scene: SceneView, position: Triple): number {
+  const first = scene.membranes[0];
+  return first ? -dot(sub(position, first.point), first.inward_normal) : 0;
+}
+
+/**
+ * The position of the tip, `height` (m) in front of the first membrane, from which `axis` points to the centre of all
+ * membranes.
+ */
+function aiming(scene: SceneView, axis: Triple, height: number): Triple {
+  const first = scene.membranes[0];
+  if (!first) return scaled(axis, -height);
+  const normal = first.inward_normal;
+  const depths = scene.membranes.map(({ point, thickness }) => dot(sub(point, first.point), normal) + thickness);
+  const half = Math.max(...depths) / 2;
+  const slope = Math.max(0.1, dot(axis, normal));
+  return add(add(first.point, scaled(normal, half)), scaled(axis, -(half + height) / slope));
+}

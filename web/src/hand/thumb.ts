@@ -1,5 +1,4 @@
-import type { App } from "../state/app.ts";
-import { onePerApp } from "../state/one_per_app.ts";
+import { type App, onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 
 /** N, of a thumb that pushes by a key or a button. Illustrative. */

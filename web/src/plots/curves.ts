@@ -1,5 +1,5 @@
+import { onePerApp } from "../state/app.ts";
 import type { History } from "../state/history.ts";
-import { onePerApp } from "../state/one_per_app.ts";
 import { feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { LabComparison } from "../wire/messages.ts";

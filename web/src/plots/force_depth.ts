@@ -1,6 +1,6 @@
 import { mm, newton } from "../format.ts";
 import { turns } from "../frames.ts";
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { hiddenOf } from "./curves.ts";
 import { difference } from "./difference.ts";
@@ -14,7 +14,7 @@ import { nameOf } from "./names.ts";
 import { reading } from "./reading.ts";
 import { scaleChip } from "./scale_chip.ts";
 import { plotsOf } from "./shared.ts";
-import { button, choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
+import { choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
 
 const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
 const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance

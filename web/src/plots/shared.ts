@@ -1,6 +1,5 @@
 import { busy } from "../frames.ts";
-import type { App } from "../state/app.ts";
-import { onePerApp } from "../state/one_per_app.ts";
+import { type App, onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 import type { Source } from "../state/source.ts";
 import { Rest } from "./rest.ts";

@@ -1,5 +1,5 @@
 import { turns } from "../frames.ts";
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { hiddenOf } from "./curves.ts";
 import { keyTick } from "./keys.ts";
 import { MARGIN } from "./kit/axes.ts";
@@ -13,7 +13,7 @@ import { Scrolled } from "./scrolled.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
 import { TimeDrawing, timeCurves } from "./time_drawing.ts";
 import type { TimePicture } from "./time_picture.ts";
-import { button, choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
+import { choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
 import { nearestTick } from "./window.ts";
 
 const TAIL = 800; // ticks without states, limits and marks in the background, at most

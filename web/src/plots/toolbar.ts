@@ -1,11 +1,6 @@
-import { element } from "../panel.ts";
+import { button, element } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { type Saving, save } from "./save.ts";
-
-export function button(text: string, title: string, act: () => void): HTMLButtonElement {
-  const named = /[a-z]{2}/i.test(text); // words are their own name for a screen reader and for voice control
-  return element("button", { type: "button", title, ...(named ? {} : { "aria-label": title }), onclick: act }, text);
-}
 
 /** A drop-down list whose entries can change. */
 export function choice(
@@ -25,10 +20,8 @@ export function choice(
 
 /** A button that pauses the page at the present moment, or goes back to the live run. The run itself goes on. */
 export function pauseButton(app: App): HTMLButtonElement {
-  const made = button("Pause", "Pause the page at this moment; the run goes on (Space)", () =>
-    app.source.value.paused ? app.goLive() : app.pause(),
-  );
-  made.classList.add("plot-pause");
+  const title = "Pause the page at this moment; the run goes on (Space)";
+  const made = button("Pause", title, () => (app.source.value.paused ? app.goLive() : app.pause()), "plot-pause");
   app.source.watch((source) => {
     made.disabled = !source.live && !source.paused; // a recording does not move by itself
     made.setAttribute("aria-pressed", String(source.paused));

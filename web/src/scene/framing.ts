@@ -1,4 +1,4 @@
-import { onePerApp } from "../state/one_per_app.ts";
+import { onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 
 /** The part of the view that nothing covers, as shares of its width and height from the upper left corner. */

@@ -1,5 +1,5 @@
 import { Vector3 } from "three";
-import { onePerApp } from "../state/one_per_app.ts";
+import { onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 import type { MembraneView, SceneView } from "../wire/messages.ts";
 import { MM } from "./moment.ts";

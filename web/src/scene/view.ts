@@ -11,22 +11,20 @@ import { poseBeside } from "./expert.ts";
 import { flatGrip } from "./flat_grip.ts";
 import { framingOf } from "./framing.ts";
 import { gestures } from "./gestures.ts";
-import { gestureHelp } from "./help.ts";
 import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
 import { Labels } from "./labels.ts";
 import { Moment } from "./moment.ts";
 import { needleGrip } from "./needle_grip.ts";
 import { popRing } from "./pop_ring.ts";
-import { presets } from "./presets.ts";
 import { probeOf } from "./probe.ts";
 import { scaleBar } from "./scale_bar.ts";
 import { sentence } from "./sentence.ts";
-import { sidewaysButton } from "./sideways.ts";
 import { SliceFrame } from "./slice_frame.ts";
 import { spoken } from "./spoken.ts";
 import { Stage } from "./stage.ts";
 import { Theme } from "./theme.ts";
+import { gestureHelp, presets, sidewaysButton } from "./view_tools.ts";
 import { World } from "./world.ts";
 
 const COARSER =

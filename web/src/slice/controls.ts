@@ -1,4 +1,4 @@
-import { element } from "../panel.ts";
+import { button, element } from "../panel.ts";
 import type { Probe, ProbePlace } from "../scene/probe.ts";
 import { wrapped } from "../scene/probe.ts";
 
@@ -69,18 +69,12 @@ export function probeDrag(canvas: HTMLElement, probe: Probe, mmPerPixel: () => n
 
 /** Buttons over the picture: two places of the probe, and close. */
 export function probeButtons(toNeedle: (across: boolean) => void, close: () => void): HTMLElement {
-  const button = (text: string, title: string, onclick: () => void): HTMLElement =>
-    element("button", { type: "button", title, onclick }, text);
   return element(
     "div",
     { class: "view-tools slice-tools", role: "toolbar", "aria-label": "Slice" },
     button("Along needle", "Place the probe so that the needle lies in the slice", () => toNeedle(false)),
     button("Across needle", "Place the probe so that the needle crosses the slice", () => toNeedle(true)),
-    element(
-      "button",
-      { type: "button", title: "Close the slice", "aria-label": "Close the slice", onclick: close },
-      "×",
-    ),
+    button("×", "Close the slice", close),
   );
 }
 

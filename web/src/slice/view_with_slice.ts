@@ -2,7 +2,7 @@ import { element, type Panel } from "../panel.ts";
 import { probeOf } from "../scene/probe.ts";
 import { view } from "../scene/view.ts";
 import { pageOf } from "../state/page.ts";
-import { keep, storage } from "../state/storage.ts";
+import { keep, storage } from "../state/remembered.ts";
 
 /**
  * The 3-D view, and beside it the slice, which a button in the view's toolbar opens and closes. Without WebGL, the

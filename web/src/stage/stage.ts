@@ -1,6 +1,6 @@
 import { newton } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
-import { element, everyFrame, type Panel } from "../panel.ts";
+import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import { type DepthScale, type Free, framingOf } from "../scene/framing.ts";
 import type { App } from "../state/app.ts";
@@ -27,8 +27,6 @@ export const stage: Panel = (root, app) => {
   const name = element("span", { class: "stage-name" });
   const free = element("div", { class: "stage-free", "aria-hidden": "true" });
   const curve = new CurvePicture();
-  const button = (text: string, title: string, act: () => void): HTMLButtonElement =>
-    element("button", { type: "button", title, onclick: act }, text);
   const hold = button("Pause", "The picture stands still; the run goes on", () => {
     const { source } = app;
     if (source.value.live) app.pause();

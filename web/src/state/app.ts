@@ -1,4 +1,5 @@
 import type { Ask, Connection, Engine, Reply } from "../engine/engine.ts";
+import { errorText } from "../format.ts";
 import { ticksCame } from "../frames.ts";
 import { Api } from "../wire/api.ts";
 import type {
@@ -86,7 +87,7 @@ export class App {
       if (!reply.ok && reply.problems.length === 0) this.notify(reply.text || "refused");
       return reply;
     } catch (error) {
-      this.notify(error instanceof Error ? error.message : String(error));
+      this.notify(errorText(error));
       return null;
     }
   }
@@ -163,4 +164,17 @@ export class App {
         break;
     }
   }
+}
+
+/** An object that several panels share: the first panel that asks creates it. */
+export function onePerApp<T>(make: (app: App) => T): (app: App) => T {
+  const made = new WeakMap<App, { readonly it: T }>();
+  return (app) => {
+    let kept = made.get(app);
+    if (!kept) {
+      kept = { it: make(app) };
+      made.set(app, kept);
+    }
+    return kept.it;
+  };
 }

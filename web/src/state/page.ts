@@ -1,4 +1,4 @@
-import { onePerApp } from "./one_per_app.ts";
+import { onePerApp } from "./app.ts";
 import { remember, remembered } from "./remembered.ts";
 import { Signal } from "./signal.ts";
 

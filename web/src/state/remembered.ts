@@ -14,3 +14,21 @@ export function remembered(name: string, jar: Jar = document): string | null {
 export function remember(name: string, value: string, jar: Jar = document): void {
   jar.cookie = `punctura_${name}=${value}; path=/; max-age=${YEAR_S}; samesite=strict`;
 }
+
+/** A storage of the browser; null if the page may not use it. */
+export function storage(which: "localStorage" | "sessionStorage" = "localStorage"): Storage | null {
+  try {
+    return globalThis[which] ?? null;
+  } catch {
+    return null;
+  }
+}
+
+/** Stores a text. Without storage, or if it is full, the page remembers it only as long as it is open. */
+export function keep(key: string, text: string, store: Pick<Storage, "setItem"> | null = storage()): void {
+  try {
+    store?.setItem(key, text);
+  } catch {
+    // The storage is full.
+  }
+}

@@ -1,4 +1,4 @@
-import { keep, storage } from "./storage.ts";
+import { keep, storage } from "./remembered.ts";
 
 const KEY = "punctura.token";
 

@@ -1,8 +1,7 @@
 import type { Panel } from "../../panel.ts";
 import { element } from "../../panel.ts";
 import { leaveExcerpt } from "../../pop/again.ts";
-import type { App } from "../../state/app.ts";
-import { onePerApp } from "../../state/one_per_app.ts";
+import { type App, onePerApp } from "../../state/app.ts";
 import { pageOf } from "../../state/page.ts";
 import { Arrangements, PANELS, type PanelName, PLACES, TITLES } from "./arrangement.ts";
 import { menu } from "./menu.ts";

@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { button, element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { fileName, saveAddress } from "../download.ts";
 import type { Draft } from "./draft.ts";
@@ -8,8 +8,6 @@ const LARGEST = 200_000; // characters; the server refuses more
 
 /** Undo, redo, reset, load and save. `report` gets the problems of a load; none if it succeeded. */
 export function sceneTools(app: App, draft: Draft, report: (problems: readonly string[]) => void): HTMLElement {
-  const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
-    element("button", { type: "button", class: "small", title: help, onclick: act }, label);
   const undo = button("Undo", "Undo (Ctrl+Z)", () => draft.undo());
   const redo = button("Redo", "Redo (Ctrl+Shift+Z)", () => draft.redo());
   const reset = button("Reset", "Restore the loaded scene", () => draft.reset());

@@ -1,12 +1,11 @@
-import { element, named } from "../../panel.ts";
+import { button, element, named } from "../../panel.ts";
 import { colourToken } from "../../state/colours.ts";
 import { Signal } from "../../state/signal.ts";
 import type { Draft } from "./draft.ts";
 import type { Table } from "./fields.ts";
 import { group, type Inputs, showAll } from "./group.ts";
-import { membraneTools } from "./membrane_tools.ts";
 import { numberText } from "./number.ts";
-import { membranes, type Tables } from "./tables.ts";
+import { duplicated, membranes, moved, type Tables, withMembranes } from "./tables.ts";
 
 interface Card {
   readonly root: HTMLElement;
@@ -108,4 +107,32 @@ export class MembraneList {
 function summaryOf(membrane: Tables): string {
   const { thickness_mm: thickness, friction } = membrane;
   return `${numberText(thickness)} mm, μ ${numberText(friction)}`;
+}
+
+/** The buttons Up, Down, Duplicate and Remove of the membrane at `index`. `go` opens a membrane afterwards. */
+function membraneTools(draft: Draft, index: number, go: (index: number) => void): HTMLElement {
+  const put = (all: readonly Tables[], next: number): void => {
+    draft.change(withMembranes(draft.tables.value, all));
+    go(Math.min(next, all.length - 1));
+  };
+  const now = (): readonly Tables[] => membranes(draft.tables.value);
+  const up = button("Up", "Move up: forces are added in this order", () =>
+    put(moved(now(), index, index - 1), index - 1),
+  );
+  const down = button("Down", "Move down", () => put(moved(now(), index, index + 1), index + 1));
+  const copy = button("Duplicate", "Add a copy behind this one", () => put(duplicated(now(), index), index + 1));
+  const remove = button("Remove", "Remove this membrane", () =>
+    put(
+      now().filter((_, i) => i !== index),
+      Math.max(index - 1, 0),
+    ),
+  );
+  draft.tables.watch(() => {
+    const count = now().length;
+    up.disabled = index === 0;
+    down.disabled = index >= count - 1;
+    remove.disabled = count <= 1;
+    remove.title = count <= 1 ? "A scene needs at least one membrane" : "Remove this membrane";
+  });
+  return element("div", { class: "tools" }, up, down, copy, remove);
 }

@@ -1,5 +1,5 @@
 import type { Reply } from "../../engine/engine.ts";
-import { element } from "../../panel.ts";
+import { button, element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
 import { recordingPath } from "../../wire/api.ts";
@@ -18,23 +18,20 @@ export function expertButton(
   if (!exercise || !result.recording || !app.control.value.you) return [];
   const is = exercise.expert === result.recording;
   const act = async (): Promise<void> => {
-    button.disabled = true;
+    made.disabled = true;
     const recording = is ? "" : result.recording;
     const reply = await app.ask({ do: "set_expert", exercise: exercise.name, recording });
     if (!reply?.ok) {
-      button.disabled = false;
+      made.disabled = false;
       tellProblems(app, reply);
       return;
     }
-    button.textContent = is ? "No longer the expert’s run" : "This is now the expert’s run";
+    made.textContent = is ? "No longer the expert’s run" : "This is now the expert’s run";
     changed();
   };
-  const button = element(
-    "button",
-    { type: "button", class: "small", title: "Later attempts are drawn beside it", onclick: () => void act() },
-    is ? "Do not use as expert’s run" : "Use as expert’s run",
-  );
-  return [button];
+  const words = is ? "Do not use as expert’s run" : "Use as expert’s run";
+  const made = button(words, "Later attempts are drawn beside it", () => void act());
+  return [made];
 }
 
 /** A choice of the expert's run among all recordings, which are read before it opens. */

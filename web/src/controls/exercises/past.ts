@@ -1,4 +1,5 @@
-import { element, keptList, named } from "../../panel.ts";
+import { errorText } from "../../format.ts";
+import { button, element, keptList, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Result } from "../../wire/messages.ts";
 import { saveAddress } from "../download.ts";
@@ -30,7 +31,7 @@ export function pastResults(
     ...FORMATS.map(([format, ending]) => {
       const address = (): string => app.api.address(`/api/results/download?${query}&format=${format}`);
       const act = (): void => saveAddress(address(), `results.${ending}`);
-      return element("button", { type: "button", class: "link", onclick: act }, format);
+      return button(format, "", act, "link");
     }),
   );
   const table = element(
@@ -81,7 +82,7 @@ export function pastResults(
       results = await app.api.json<Result[]>(`/api/results?${query}`);
       if (results.length) words = `Results of ${whose}, kept on this computer.`;
     } catch (error) {
-      words = `Cannot load the results: ${error instanceof Error ? error.message : String(error)}`;
+      words = `Cannot load the results: ${errorText(error)}`;
     }
     if (mine !== asked) return; // an answer to an earlier question
     note.textContent = words;
@@ -100,7 +101,7 @@ interface Row {
 }
 
 function row({ result, title, withPerson }: Row, open: (result: Result) => void): HTMLElement {
-  const when = element("button", { type: "button", class: "link", onclick: () => open(result) }, dateText(result.date));
+  const when = button(dateText(result.date), "", () => open(result), "link");
   return element(
     "tr",
     {},

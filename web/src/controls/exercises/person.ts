@@ -1,6 +1,6 @@
 import { element } from "../../panel.ts";
+import { keep, storage } from "../../state/remembered.ts";
 import { Signal } from "../../state/signal.ts";
-import { keep, storage } from "../../state/storage.ts";
 
 const KEY = "punctura.person";
 const GROUP_KEY = "punctura.class";

@@ -1,5 +1,5 @@
-import { unbroken } from "../../format.ts";
-import { element, named } from "../../panel.ts";
+import { errorText, unbroken } from "../../format.ts";
+import { button, element, named } from "../../panel.ts";
 import { showMoment } from "../../pop/again.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
@@ -28,15 +28,13 @@ export function openResult(
 ): void {
   const stop = new AbortController();
   const place = element("div", { class: "trace-place", "aria-live": "polite" });
-  const button = (label: string, act: () => void, kind = ""): HTMLButtonElement =>
-    element("button", { type: "button", class: `small ${kind}`, onclick: act }, label);
   const watchButton = (time: number): HTMLElement => {
-    watch = button("Watch this moment, slowly", () => void showWorst(time));
+    watch = button("Watch this moment, slowly", "", () => void showWorst(time));
     watch.disabled = true;
     return watch;
   };
   let watch: HTMLButtonElement | null = null;
-  const look = button("Replay", () => void 0);
+  const look = button("Replay", "", () => void 0);
   look.disabled = true;
   const dialog = element(
     "dialog",
@@ -66,17 +64,17 @@ export function openResult(
     element(
       "div",
       { class: "tools" },
-      button("Save JSON", () => save("json")),
-      button("Save CSV", () => save("csv")),
+      button("Save JSON", "", () => save("json")),
+      button("Save CSV", "", () => save("csv")),
       ...expertButton(app, result, exercise, changed),
     ),
     element(
       "footer",
       { class: "tools" },
-      ...(again ? [button("Try again", () => close(again), "primary")] : []),
+      ...(again ? [button("Try again", "", () => close(again), "small primary")] : []),
       look,
       element("span", { class: "gap" }),
-      button("Close", () => dialog.close(), again ? "" : "primary"),
+      button("Close", "", () => dialog.close(), again ? "small" : "small primary"),
     ),
   );
   const close = (then: () => void): void => {
@@ -185,7 +183,7 @@ async function drawTrace(
     return entries;
   } catch (error) {
     if (!signal.aborted)
-      place.replaceChildren(element("p", { class: "quiet" }, `Cannot draw the attempt: ${wordsOf(error)}`));
+      place.replaceChildren(element("p", { class: "quiet" }, `Cannot draw the attempt: ${errorText(error)}`));
     return [];
   }
 }
@@ -208,7 +206,7 @@ async function fetchWhole(
     };
     return (await fetchSource(app.api, entry, progress, signal)).source;
   } catch (error) {
-    if (!signal.aborted) app.notify(`Cannot load the attempt: ${wordsOf(error)}`);
+    if (!signal.aborted) app.notify(`Cannot load the attempt: ${errorText(error)}`);
     return null;
   } finally {
     line.remove();
@@ -220,8 +218,6 @@ export function tracePath({ recording, events }: Pick<Result, "recording" | "eve
   const touch = events.find(({ what }) => what === "touch")?.time ?? 0;
   return `${recordingPath(recording)}/trace?from=${Math.max(touch - BEFORE, 0).toFixed(3)}`;
 }
-
-const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
 /**
  * One thing to change next time, and one that went well. Empty if the coach has nothing to say. watch: shows the worst

@@ -1,4 +1,4 @@
-import { element, named } from "../../panel.ts";
+import { button, element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseOverview, ExerciseStatus } from "../../wire/messages.ts";
 import { watchBlock } from "../blocked.ts";
@@ -19,11 +19,7 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   const goals = element("div", { class: "task-goals" });
   const clock = element("p", { class: "clock", role: "timer", "aria-live": "off" });
   const ring = holdRing();
-  const end = element(
-    "button",
-    { type: "button", class: "small", onclick: () => void app.ask({ do: "end_exercise" }) },
-    "End",
-  );
+  const end = button("End", "", () => void app.ask({ do: "end_exercise" }));
   const root = element(
     "section",
     { class: "running tab", hidden: true, "aria-label": "Exercise" },

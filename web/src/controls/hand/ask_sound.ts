@@ -1,4 +1,4 @@
-import { element, type Panel } from "../../panel.ts";
+import { button, element, type Panel } from "../../panel.ts";
 import { soundOf } from "./sound.ts";
 
 /**
@@ -10,13 +10,11 @@ export const askSound: Panel = (root, app) => {
   const yes = (): void => {
     void sound.switchOn().catch(() => app.notify("This browser does not let the page play sound."));
   };
-  const button = (words: string, kind: string, act: () => void): HTMLElement =>
-    element("button", { type: "button", class: kind, onclick: act }, words);
   const box = element(
     "section",
     { class: "ask-sound", "aria-label": "Sound", hidden: true },
     element("p", {}, "Do you want to hear the pops and the friction?"),
-    button("Sound on", "primary", yes),
+    button("Sound on", "", yes, "primary"),
     button("No sound", "", () => void sound.switchOff()),
   );
   root.after(box);

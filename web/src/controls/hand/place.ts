@@ -1,6 +1,6 @@
 import { fixedNumber } from "../../format.ts";
 import type { Hand } from "../../hand/hand.ts";
-import { element, everyFrame } from "../../panel.ts";
+import { button, element, everyFrame } from "../../panel.ts";
 import { KEYS } from "../../scene/keys.ts";
 import type { App } from "../../state/app.ts";
 
@@ -31,8 +31,6 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
     head,
     ...rows,
   );
-  const button = (label: string, title: string, act: () => void): HTMLElement =>
-    element("button", { type: "button", class: "button", title, onclick: act }, label);
   let last = 0;
   everyFrame((now) => {
     if (now - last < INTERVAL) return;
@@ -59,9 +57,9 @@ export function placeRows(app: App, hand: Hand): HTMLElement {
     element(
       "div",
       { class: "row buttons" },
-      button("Out 1 mm", "Along the needle", () => hand.push(-1e-3)),
-      button("In 1 mm", "Along the needle", () => hand.push(1e-3)),
-      button("Home", "In front of the first membrane", () => hand.home()),
+      button("Out 1 mm", "Along the needle", () => hand.push(-1e-3), "button"),
+      button("In 1 mm", "Along the needle", () => hand.push(1e-3), "button"),
+      button("Home", "In front of the first membrane", () => hand.home(), "button"),
     ),
   );
 }

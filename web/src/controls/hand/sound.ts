@@ -1,4 +1,4 @@
-import { onePerApp } from "../../state/one_per_app.ts";
+import { onePerApp } from "../../state/app.ts";
 import { remember, remembered } from "../../state/remembered.ts";
 import { Signal } from "../../state/signal.ts";
 

@@ -1,4 +1,4 @@
-import { element, keptList, named } from "../../panel.ts";
+import { button, element, keptList, named } from "../../panel.ts";
 import type { RecordingEntry, Result } from "../../wire/messages.ts";
 import { dateText, lengthText } from "../recordings/words.ts";
 
@@ -43,7 +43,7 @@ export function pickRuns(act: (names: readonly string[]) => void): {
   });
   const none = element("p", { class: "quiet" }, "No recordings yet. Record a run, or try an exercise.");
   let chosen: readonly string[] = []; // in the order in which they were chosen
-  const go = element("button", { type: "button", class: "small primary", onclick: () => act(chosen) }, "Compare");
+  const go = button("Compare", "", () => act(chosen), "small primary");
   const mark = (): void => {
     const count = chosen.length;
     for (const row of list.querySelectorAll<HTMLElement>("[data-run]")) row.hidden = row.dataset.run !== chosen[0];

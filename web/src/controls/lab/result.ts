@@ -1,4 +1,4 @@
-import { element } from "../../panel.ts";
+import { button, element } from "../../panel.ts";
 import { Figure } from "../../plots/kit/figure.ts";
 import { Hidden, legend } from "../../plots/kit/legend.ts";
 import { CSS_THEME } from "../../plots/kit/theme.ts";
@@ -40,8 +40,6 @@ export function openComparison(app: App, job: Job, title: string, comparison: La
     quantity = value as Quantity;
     figure.redraw();
   });
-  const button = (label: string, help: string, act: () => void, kind = ""): HTMLButtonElement =>
-    element("button", { type: "button", class: `small ${kind}`, title: help, onclick: act }, label);
   const inPlots = button("Show in the plots", "Draw mean and standard deviation in the page's plots", () => {
     app.comparison.value = app.comparison.value === comparison ? null : comparison;
   });
@@ -73,7 +71,7 @@ export function openComparison(app: App, job: Job, title: string, comparison: La
       save,
       inPlots,
       element("span", { class: "gap" }),
-      button("Close", "Close", () => dialog.close(), "primary"),
+      button("Close", "Close", () => dialog.close(), "small primary"),
     ),
   );
   dialog.addEventListener("close", () => {

@@ -1,3 +1,4 @@
+import { errorText } from "../../format.ts";
 import type { App } from "../../state/app.ts";
 import { Signal } from "../../state/signal.ts";
 import type { Source } from "../../state/source.ts";
@@ -35,7 +36,7 @@ export class Library {
       const open = this.entries.value.some(({ finished, started }) => !finished && recent(started));
       if (open && again > 0) this.later = setTimeout(() => void this.refresh(again - 1), 1000);
     } catch (error) {
-      this.trouble.value = wordsOf(error);
+      this.trouble.value = errorText(error);
     }
   }
 
@@ -65,5 +66,3 @@ export class Library {
 }
 
 const recent = (iso: string): boolean => Date.now() - new Date(iso).getTime() < 3_600_000;
-
-export const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

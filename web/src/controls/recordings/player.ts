@@ -1,4 +1,4 @@
-import { element, everyFrame, type Panel } from "../../panel.ts";
+import { button, element, everyFrame, type Panel } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { Source } from "../../state/source.ts";
 import { Playback } from "./playback.ts";
@@ -35,8 +35,6 @@ function fill(host: HTMLElement, app: App, source: Source, rate: number, from: n
   let used = false; // whether the user has used the bar
   let rested = 0; // ms since the end
 
-  const button = (label: string, words: string, act: () => void): HTMLButtonElement =>
-    element("button", { type: "button", class: "small", title: words, "aria-label": words, onclick: act }, label);
   const step: typeof button = (...words) => Object.assign(button(...words), { className: "small step" });
   const play = button("▶", "Play (space)", () => {
     used = true;
@@ -112,16 +110,7 @@ function fill(host: HTMLElement, app: App, source: Source, rate: number, from: n
     element("div", { class: "track" }, marks, track),
     time,
     speed,
-    element(
-      "button",
-      {
-        type: "button",
-        class: "small primary",
-        title: showing.backTitle,
-        onclick: () => showing.back(),
-      },
-      showing.backWords,
-    ),
+    button(showing.backWords, showing.backTitle, () => showing.back(), "small primary"),
   );
   const keys = (event: KeyboardEvent): void => {
     if (event.target instanceof HTMLSelectElement) return;

@@ -1,8 +1,8 @@
+import { errorText } from "../../format.ts";
 import { element } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import { blockOf, watchBlock } from "../blocked.ts";
 import { words } from "../editor/problems.ts";
-import { wordsOf } from "./library.ts";
 import { countText } from "./words.ts";
 
 /** The buttons Record and Stop, and the state of the recording. */
@@ -34,7 +34,7 @@ export function recordControl(app: App): HTMLElement {
     const refusal = await app.engine
       .ask(stops ? { do: "stop_recording" } : { do: "start_recording", ...(wish ? { name: wish } : {}) })
       .then((reply) => (reply.ok ? "" : reply.text || "the request was refused"))
-      .catch(wordsOf);
+      .catch(errorText);
     button.disabled = blockOf(app, "scene") !== null;
     if (refusal) {
       error.textContent = words(refusal);

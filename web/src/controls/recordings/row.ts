@@ -1,9 +1,10 @@
-import { element } from "../../panel.ts";
+import { errorText } from "../../format.ts";
+import { button, element } from "../../panel.ts";
 import { recordingPath } from "../../wire/api.ts";
 import type { RecordingEntry } from "../../wire/messages.ts";
 import { blockOf } from "../blocked.ts";
 import { fileName, saveAddress } from "../download.ts";
-import { type Library, wordsOf } from "./library.ts";
+import type { Library } from "./library.ts";
 import { bytesText, countText, dateText, lengthText } from "./words.ts";
 
 const FORMATS = ["parquet", "csv", "mcap"] as const;
@@ -21,8 +22,6 @@ export interface Row {
 export function recordingRow(library: Library, first: RecordingEntry): Row {
   let entry = first;
   const { app } = library;
-  const button = (label: string, help: string, act: () => void): HTMLButtonElement =>
-    element("button", { type: "button", class: "small", title: help, onclick: act }, label);
   const line = element("p", { class: "error", role: "alert" });
   const bar = element("progress", { max: 1, value: 0, "aria-label": `Loading ${entry.name}` });
   const bytes = element("span", { class: "quiet bytes" });
@@ -50,7 +49,7 @@ export function recordingRow(library: Library, first: RecordingEntry): Row {
       );
       then(source);
     } catch (error) {
-      if (!fetching.signal.aborted) line.textContent = wordsOf(error);
+      if (!fetching.signal.aborted) line.textContent = errorText(error);
     } finally {
       clearTimeout(soon);
       fetching = null;
@@ -96,7 +95,7 @@ export function recordingRow(library: Library, first: RecordingEntry): Row {
     try {
       await library.remove(entry);
     } catch (error) {
-      line.textContent = wordsOf(error);
+      line.textContent = errorText(error);
       ask(false);
     }
   });

@@ -1,3 +1,4 @@
+import { errorText } from "../../format.ts";
 import type { EstimateMessage, Message, SceneView } from "../../wire/messages.ts";
 import { codeOf, decodeTicks, wordsOf } from "../../wire/ticks.ts";
 import { type Answer, type Ask, DONE, type Reply, type Triple } from "../engine.ts";
@@ -245,7 +246,7 @@ const noEstimate = (): EstimateMessage => ({
 /** The problems of a scene, as the server would send them. */
 function refusal(error: unknown): Answer {
   const found = (error as { problems?: { path: string; value: number; reason: string }[] }).problems;
-  const text = error instanceof Error ? error.message : String(error);
+  const text = errorText(error);
   if (!found?.length) return { ...DONE, ok: false, text };
   const problems = found.map(({ path, value, reason }) => ({
     path,

@@ -1,3 +1,4 @@
+import { errorText } from "../../format.ts";
 import { DONE } from "../engine.ts";
 import type { Punctura, StudioData, Tables } from "./core.ts";
 import type { FromWorker, ToWorker } from "./mail.ts";
@@ -50,7 +51,7 @@ scope.onmessage = ({ data }) => {
         }, BLOCK_MS);
         setInterval(() => made.tellStatus(), STATUS_MS);
       },
-      (error: unknown) => send({ failed: error instanceof Error ? error.message : String(error) }),
+      (error: unknown) => send({ failed: errorText(error) }),
     );
   } else if ("visible" in data) {
     visible = data.visible;

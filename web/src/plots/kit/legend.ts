@@ -1,6 +1,6 @@
 import { element, keepChildren } from "../../panel.ts";
+import { keep, storage } from "../../state/remembered.ts";
 import { Signal } from "../../state/signal.ts";
-import { keep, storage } from "../../state/storage.ts";
 import { textWidth } from "./labels.ts";
 import type { Pen } from "./pen.ts";
 import type { Theme } from "./theme.ts";

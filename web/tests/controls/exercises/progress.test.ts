@@ -1,6 +1,5 @@
 import { expect, test } from "vitest";
-import { courses, MEASURES, summaries } from "../../../src/controls/exercises/progress.ts";
-import { drawProgress } from "../../../src/controls/exercises/progress_part.ts";
+import { courses, drawProgress, MEASURES, summaries } from "../../../src/controls/exercises/progress_part.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 import type { Result } from "../../../src/wire/messages.ts";

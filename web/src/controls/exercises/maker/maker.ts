@@ -1,4 +1,5 @@
-import { element } from "../../../panel.ts";
+import { errorText } from "../../../format.ts";
+import { button, element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
 import type { SceneOutline } from "../../../wire/messages.ts";
 import { sentence, words } from "../../editor/problems.ts";
@@ -159,8 +160,6 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     });
     return row(key, label, box);
   };
-  const button = (label: string, act: () => Promise<unknown>, kind = ""): HTMLElement =>
-    element("button", { type: "button", class: `small ${kind}`, onclick: () => void act() }, label);
 
   const build = (): void => {
     updates.length = 0;
@@ -194,9 +193,9 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
       element(
         "div",
         { class: "tools" },
-        button("Try", attempt, "primary"),
-        button("Save on this computer", save),
-        button("Download file", download),
+        button("Try", "", () => void attempt(), "small primary"),
+        button("Save on this computer", "", () => void save()),
+        button("Download file", "", () => void download()),
       ),
       element(
         "div",
@@ -212,7 +211,7 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
       scenes = await app.api.json<SceneOutline[]>("/api/scenes");
       fields = goalFields(await app.api.json<ExerciseSchema>("/api/exercise-schema"));
     } catch (error) {
-      note.textContent = `Cannot load the form: ${error instanceof Error ? error.message : String(error)}`;
+      note.textContent = `Cannot load the form: ${errorText(error)}`;
       return;
     }
     draft = draftOf(scenes.find(({ title }) => title === app.live.scene.value?.name) ?? scenes[0]!);

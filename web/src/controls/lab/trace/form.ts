@@ -1,4 +1,4 @@
-import { element } from "../../../panel.ts";
+import { button, element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
 import type { FileLine, RolePart } from "../../../wire/messages.ts";
 import { answersOf, columnWords, isComplaints, needleWords, sceneNeedle, statedUnit } from "./asked.ts";
@@ -38,11 +38,11 @@ export function questions(app: App, file: FileLine, act: (answers: Answers) => v
     angle.value = words.angle;
   };
   if (file.needle) fill(needleWords(file.needle.diameter, file.needle.tip_angle));
-  const same = element("button", { type: "button", class: "link" }, "As in the running scene");
-  same.addEventListener("click", () => {
+  const asRunning = (): void => {
     const scene = app.live.scene.value;
     if (scene) fill(sceneNeedle(scene));
-  });
+  };
+  const same = button("As in the running scene", "", asRunning, "link");
   const counts = Array.from({ length: MOST_MEMBRANES }, (_, i) => [String(i + 1), String(i + 1)] as const);
   const membranes = select([["auto", "one for each pop"], ...counts], "auto");
   const walls = field("Membranes", membranes);

@@ -1,7 +1,7 @@
+import { errorText } from "../../../format.ts";
 import { element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
 import { dropZone, type Kind } from "../../drop_zone.ts";
-import { wordsOf } from "../../recordings/library.ts";
 import { type Form, questions } from "./form.ts";
 import { type Answers, FieldError, identify, lookAt, refusalOf } from "./job.ts";
 import { tracePlot } from "./plot.ts";
@@ -50,8 +50,8 @@ export function tracePart(app: App): HTMLElement {
     } catch (error) {
       if (stop.signal.aborted) return "Cancelled.";
       const at = error instanceof FieldError && (form?.complain(error.field, error.message) ?? false);
-      if (!at) trouble.textContent = wordsOf(error);
-      return wordsOf(error);
+      if (!at) trouble.textContent = errorText(error);
+      return errorText(error);
     } finally {
       running = null;
       progress.hidden = true;

@@ -1,4 +1,4 @@
-import { element } from "../../../panel.ts";
+import { button, element } from "../../../panel.ts";
 import { download } from "../../../plots/save.ts";
 import type { App } from "../../../state/app.ts";
 import type { FitLine, IdentifyLine } from "../../../wire/messages.ts";
@@ -29,9 +29,7 @@ export function traceDialog(app: App, progress: HTMLElement, closed: () => void)
   const [numbers, models] = [element("div"), element("div")];
   const title = element("h2", { id: "trace-title", tabindex: -1 });
   let [name, report, scene] = ["", "", ""];
-  const button = (label: string, help: string, act: () => void, kind = ""): HTMLButtonElement =>
-    element("button", { type: "button", class: `small ${kind}`, title: help, onclick: act }, label);
-  const feel = button("Feel this tissue", "Load the scene of these membranes", () => void load(), "primary");
+  const feel = button("Feel this tissue", "Load the scene of these membranes", () => void load(), "small primary");
   const named = (more: string, ending: string): string => fileName(name.replace(/\.\w+$/, "") + more, ending);
   const saveScene = button("Save scene", "Save the scene as a TOML file for punctura run", () =>
     download(named("", "toml"), [scene], "application/toml"),
