@@ -1,4 +1,4 @@
-"""The result of an attempt: one thing to change, its moment again, and a page that looks on."""
+"""The result of an attempt: one thing to change, its moment again, and pages that look on."""
 
 import pytest
 from person import opened, own_exercise, push, ready, tab, whole_at
@@ -27,25 +27,38 @@ def lose(page):
             break
 
 
-def test_the_coach_shows_its_moment_and_a_page_that_looks_on_follows(page, studio, browser):
+def test_the_coach_shows_its_moment_and_a_projector_and_a_phone_that_look_on_follow(page, studio, browser):
     ready(page)
     page.get_by_role("button", name="Go to the tabs").press("Enter")  # past the plots
     expect(page.get_by_role("tab", selected=True)).to_be_focused()
     tab(page, "Exercises")
     card = page.locator("article.exercise", has_text=TITLE)
-    card.get_by_role("button", name="Start").click()
-    with opened(browser, studio.url) as projector:
-        expect(projector.locator(".header")).to_contain_text("Another page moves the needle")
+    with (
+        opened(browser, studio.url, bench=False) as projector,
+        opened(browser, studio.url, bench=False) as phone,
+    ):
+        phone.set_viewport_size({"width": 390, "height": 844})
+        expect(phone.locator(".stage-number")).to_contain_text("N")
+        projector.get_by_role("button", name="Pause").click()
+        expect(projector.locator(".stage-sentence")).to_contain_text("Paused")
+        card.get_by_role("button", name="Start").click()
+        instruction = page.locator(".running .instruction")
+        expect(instruction).not_to_be_empty()
+        for watching in (projector, phone):
+            expect(watching.locator(".stage-sentence")).to_have_text(instruction.inner_text())
+            expect(watching.get_by_role("button", name="Pause")).to_be_visible()
         lose(page)
-        dialog, shown = page.get_by_role("dialog"), projector.get_by_role("dialog")
+        dialog = page.get_by_role("dialog")
         expect(dialog.locator(".coach.change p")).to_have_count(1)
         expect(dialog.locator(".coach.change")).to_contain_text("0.02 N are allowed")
         again = dialog.locator("footer").get_by_role("button").first
         expect(again).to_have_text("Try again")
         for size in ((720, 450), (390, 844), (1440, 900)):
             whole_at(page, size, again, dialog.get_by_role("button", name="Close", exact=True))
-        expect(shown).to_contain_text("You pushed with more than 0.02 N")
-        expect(shown.get_by_role("button", name="Try again")).to_have_count(0)
+        for watching in (projector, phone):
+            shown = watching.get_by_role("dialog")
+            expect(shown).to_contain_text("You pushed with more than 0.02 N")
+            expect(shown.get_by_role("button", name="Try again")).to_have_count(0)
 
         dialog.get_by_role("button", name="Watch this moment, slowly").click()
         replay = page.locator(".player")
@@ -54,7 +67,11 @@ def test_the_coach_shows_its_moment_and_a_page_that_looks_on_follows(page, studi
         replay.get_by_role("button", name="Back to live").click()
         expect(dialog).to_contain_text("You pushed with more than 0.02 N")  # it is here again
 
+        # One of them watches the moment, and nobody comes back to it.
+        projector.get_by_role("dialog").get_by_role("button", name="Watch this moment, slowly").click()
+        expect(projector.locator(".stage-sentence")).to_contain_text("The worst moment")
         dialog.get_by_role("button", name="Try again").click()
         expect(page.locator(".running")).to_be_visible()
-        expect(projector.locator(".running")).to_be_visible()
-        expect(shown).to_be_hidden()
+        for watching in (projector, phone):
+            expect(watching.get_by_role("dialog")).to_be_hidden()
+            expect(watching.locator(".stage-sentence")).to_have_text(instruction.inner_text())

@@ -77,6 +77,12 @@ export const stage: Panel = (root, app) => {
   app.source.watch((source) => {
     hold.textContent = source.live ? "Pause" : "Go on";
   });
+  let running = false;
+  app.exercise.watch((status) => {
+    const begins = !running && (status?.running ?? false);
+    running = status?.running ?? false;
+    if (begins && page.value === "stage") app.goLive(); // nobody may stand at a page that looks on
+  });
 
   const attempts = new Attempts(app);
   const sentence = new Sentence(app);
