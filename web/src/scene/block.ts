@@ -39,6 +39,8 @@ export class Block {
   readonly cut = new Cut();
   private parts: Parts | null = null;
   private size = 10;
+  private left = 0;
+  private right = 0;
   private diameter = 1;
   private aside = 0.5;
   private readonly drawn = new Shown();
@@ -52,12 +54,14 @@ export class Block {
     return this.parts !== null;
   }
 
-  /** Returns whether the scene is drawn as a block. */
-  build(scene: SceneView, size: number): boolean {
+  /** size: half its width; left, right: more of it, mm. Returns whether the scene is drawn as a block. */
+  build(scene: SceneView, size: number, left = 0, right = 0): boolean {
     this.clear();
     const layers = layersOf(scene);
     if (!layers) return false;
     this.size = size;
+    this.left = left;
+    this.right = right;
     this.diameter = scene.diameter * MM;
     this.aside = tipOffset(needleLook(scene)) * this.diameter;
     const vessel = vesselOf(scene, layers);
@@ -75,7 +79,7 @@ export class Block {
       field: new Field(layers, this.diameter),
       face: new CutFace(layers, vessel, cut, this.diameter),
       surface: new Surface(surface, front, deep),
-      ends: new Ends(layers, size, deep, end),
+      ends: new Ends(layers, [-size - left, size + right], deep, end),
       tracks: new Tracks(),
       papers: [cut, surface, end],
       front,
@@ -130,7 +134,7 @@ export class Block {
     const values = [...places.map((mm) => mm / step), ...others.map((value) => value * 250), ...counts];
     if (!this.drawn.differs(values)) return painted;
     const lean = moment.axis.dot(cut.down);
-    const window: Window = { centre: cut.centre, size };
+    const window: Window = { centre: cut.centre, size, left: this.left, right: this.right };
     parts.field.set(tip, grips, lean);
     const slope = moment.axis.dot(cut.along) / Math.max(0.2, Math.abs(lean));
     const side = this.aside; // from the tip to the middle of the shaft
@@ -153,7 +157,7 @@ export class Block {
     return opacity;
   }
 
-  /** The corners of the block, mm, before the needle moves it; empty if the scene is not drawn as a block. */
+  /** The corners without `left` and `right`, mm, before the needle moves them; empty if the scene has no block. */
   corners(): Vector3[] {
     const { cut, size, parts } = this;
     if (!parts) return [];
@@ -183,6 +187,7 @@ export class Block {
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const side = right.dot(this.cut.along) >= 0 ? 1 : -1;
     const back = right.dot(this.cut.towards) >= 0 ? 0 : DEEP * this.size;
-    return this.cut.point(this.cut.centre + side * this.size, depth, this.cut.w - back);
+    const more = side < 0 ? this.left : this.right;
+    return this.cut.point(this.cut.centre + side * (this.size + more), depth, this.cut.w - back);
   }
 }

@@ -1,5 +1,5 @@
 import { MathUtils, PerspectiveCamera, Plane, Ray, Vector2, Vector3 } from "three";
-import type { Free } from "./framing.ts";
+import { type Free, isBeside } from "./framing.ts";
 
 /** front: the cut is parallel to the screen, so that depths are heights. */
 export type Preset = "oblique" | "side" | "top" | "needle" | "front";
@@ -9,8 +9,6 @@ const CLOSEST_MM = 4;
 const FARTHEST_MM = 900;
 /** Below this sine of the angle between view and plane, the camera sees the plane from its edge. */
 const EDGE = 0.15;
-/** Share of the view: where its free part ends before it, something stands to the right of that. */
-const BESIDE = 0.9;
 const STEEPEST = MathUtils.degToRad(89.5);
 
 interface Pose {
@@ -106,7 +104,7 @@ export class OrbitCamera {
     goal.target
       .copy(back)
       .multiplyScalar(away - goal.distance)
-      .addScaledVector(right, free.right < BESIDE ? x.last(away) : x.middle(away))
+      .addScaledVector(right, isBeside(free) ? x.last(away) : x.middle(away))
       .addScaledVector(up, y.middle(away));
     if (this.resized) this.settle();
     this.resized = false;

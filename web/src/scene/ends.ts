@@ -3,7 +3,7 @@ import type { Layer } from "../tissue/layers.ts";
 import type { Paper } from "./paper.ts";
 import type { Theme } from "./theme.ts";
 
-const STRIPE = 0.025; // of the block's half width
+const STRIPE = 0.025; // of the place of its right end
 
 /** The still parts of the block: its ends, its bottom, and the colour stripes. */
 export class Ends {
@@ -16,18 +16,18 @@ export class Ends {
   private readonly marked: readonly Layer[];
   private readonly meshes: Mesh[];
 
-  constructor(layers: readonly Layer[], size: number, deep: number, paper: Paper) {
+  constructor(layers: readonly Layer[], [from, to]: readonly [number, number], deep: number, paper: Paper) {
     const bottom = layers.at(-1)!.bottom;
     const end = (u: number, shade: number): Mesh =>
       new Mesh(quad([u, 0, 0], [u, 0, -deep], [u, bottom, 0], [u, bottom, -deep], shade), paper.material);
     const floor = new Mesh(
-      quad([-size, bottom, 0], [size, bottom, 0], [-size, bottom, -deep], [size, bottom, -deep], 1),
+      quad([from, bottom, 0], [to, bottom, 0], [from, bottom, -deep], [to, bottom, -deep], 1),
       this.below,
     );
     this.marked = layers.filter(({ membrane }) => membrane !== null);
-    const wide = STRIPE * size;
+    const wide = STRIPE * to;
     const bars = this.marked.flatMap(({ top, bottom: low }) => {
-      const [left, right] = [-size - 2.2 * wide, -size - 0.7 * wide];
+      const [left, right] = [from - 2.2 * wide, from - 0.7 * wide];
       return [[left, top], [left, low], [right, top], [right, top], [left, low], [right, low]].flatMap(
         ([u, d]) => [u!, d!, 0]);
     }); // biome-ignore format: two triangles
@@ -37,7 +37,7 @@ export class Ends {
       .setAttribute("color", this.colours);
     this.stripes.side = floor.material.side = 2;
     this.bars = new Mesh(striped, this.stripes);
-    this.meshes = [end(size, 0.8), end(-size, 0.66), floor, this.bars];
+    this.meshes = [end(to, 0.8), end(from, 0.66), floor, this.bars];
     this.group.add(...this.meshes);
   }
 

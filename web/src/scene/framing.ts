@@ -9,6 +9,9 @@ export interface Free {
   readonly bottom: number;
 }
 
+/** Whether something stands to the right of the free part. */
+export const isBeside = ({ right }: Free): boolean => right < 0.9;
+
 /** Heights on the screen of depths below the skin, px from the view's upper border. */
 export class DepthScale {
   private readonly bend: number;

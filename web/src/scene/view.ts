@@ -9,7 +9,7 @@ import type { SceneView } from "../wire/messages.ts";
 import { OrbitCamera, type Preset } from "./camera.ts";
 import { poseBeside } from "./expert.ts";
 import { flatGrip } from "./flat_grip.ts";
-import { framingOf } from "./framing.ts";
+import { framingOf, isBeside } from "./framing.ts";
 import { gestures } from "./gestures.ts";
 import { hubInset } from "./hub_inset.ts";
 import { viewKeys } from "./keys.ts";
@@ -129,8 +129,9 @@ export const view: Panel = (host, app) => {
   };
 
   framing.free.watch((free) => {
-    const turns = world.nameless !== (free !== null);
-    world.nameless = free !== null;
+    const wide = free === null ? "no" : isBeside(free) ? "left" : "both";
+    const turns = world.wide !== wide;
+    world.wide = wide;
     if (turns) built = null; // the stage draws sheets as tissue
     if (turns) settle();
     stage.stale = true;

@@ -31,6 +31,7 @@ const ACTIVE = codeOf("state", "active");
 const BEFORE_MM = 3; // in front of the skin: so far out, the needle is always in the picture
 const BELOW_MM = 3; // drawn depth below the last of the sheets
 const WIDER = 1.8; // times the tissue's width, on the stage: a needle that stands upright leaves room for it
+const MORE = 6; // times half the tissue's width, on the stage: to the border of the page
 const LEAST_HEIGHT_PX = 40; // of the tissue, for a scale of depths beside it
 
 /** Everything that the view draws for one moment of a source. */
@@ -52,8 +53,8 @@ export class World {
   private goal: Goal | null = null;
   private readonly drawn = new Shown();
   private readonly fade = new Fade();
-  /** Whether the names and the force are written elsewhere, and not in the view. */
-  nameless = false;
+  /** On which sides the tissue goes on to the border of the page; if at all, names and force are not in the view. */
+  wide: "no" | "left" | "both" = "no";
 
   constructor(
     private readonly stage: Stage,
@@ -77,10 +78,10 @@ export class World {
 
   /** Builds the scene. Returns whether its geometry changed. */
   build(scene: SceneView): boolean {
-    const wider = this.nameless && scene.lumen.length === 0 ? WIDER : 1;
+    const wider = this.wide !== "no" && scene.lumen.length === 0 ? WIDER : 1;
     const before = this.shape;
     this.scene = scene;
-    this.shape = `${wider} ${shapeOf(scene)}`;
+    this.shape = `${this.wide} ${shapeOf(scene)}`;
     if (before === this.shape) return false;
     this.moment.tick = -1;
     const extent = extentOf(scene);
@@ -89,7 +90,8 @@ export class World {
     this.extent = { ...extent, size };
     this.needle.build(scene, length);
     this.ghost.build(scene, length);
-    const asBlock = this.block.build(scene, size);
+    const more = MORE * extent.size;
+    const asBlock = this.block.build(scene, size, this.wide === "no" ? 0 : more, this.wide === "both" ? more : 0);
     this.membranes.build(asBlock ? { ...scene, membranes: [] } : scene, size);
     this.blood.build(scene.lumen, !asBlock);
     this.labels.clear();
@@ -112,7 +114,7 @@ export class World {
    */
   update(source: Source, target: Pose | null, camera: Camera, pixel: number): boolean {
     const { moment, scene, extent } = this;
-    this.block.showBars(!this.nameless); // the stage has no curves of single membranes
+    this.block.showBars(this.wide === "no"); // the stage has no curves of single membranes
     if (!scene || !extent || source.history.membranes !== scene.membranes.length || !moment.read(source)) return false;
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
@@ -221,7 +223,7 @@ export class World {
     const { labels, stage } = this;
     const size = [stage.width, stage.height] as const;
     labels.begin();
-    if (!this.nameless) this.nameTissue(camera, size);
+    if (this.wide === "no") this.nameTissue(camera, size);
     if (this.mark.group.visible)
       labels.put("goal", `Goal: ${this.goal?.name}`, "goal", this.mark.middle, camera, size, "left");
     labels.end();

@@ -7,10 +7,15 @@ export const COLUMNS = 2 * HALF + 1;
 const DENSITY = 2.2;
 const ROWS_IN_BLOOD = 12;
 
-/** The drawn part of the tissue, mm: it is `size` wide on both sides of `centre`, however far the needle goes. */
+/**
+ * The drawn part of the tissue, mm: it is `size` wide on both sides of `centre`, however far the needle goes. On the
+ * left and on the right it goes on for so much, at rest.
+ */
 export interface Window {
   readonly centre: number;
   readonly size: number;
+  readonly left: number;
+  readonly right: number;
 }
 
 /** Depths of the rows of the cut's mesh. Each border between layers is a row. */
@@ -36,13 +41,14 @@ export function bendRow(
   moved: Float32Array,
   at: number,
 ): void {
-  const { centre, size } = window;
+  const { centre, size, left, right } = window;
   field.at(d, spot);
   const middle = Math.min(centre + 0.96 * size, Math.max(centre - 0.96 * size, spot.track));
   const held = d >= bottom ? 0 : 1;
   for (let i = -HALF; i <= HALF; i++) {
     const part = (Math.abs(i) / HALF) ** DENSITY;
-    const u = middle * (1 - part) + (centre + Math.sign(i) * size) * part;
+    const more = i === -HALF ? -left : i === HALF ? right : 0;
+    const u = middle * (1 - part) + (centre + Math.sign(i) * size) * part + more;
     const share = held * field.share(u - spot.track) * border(u, window);
     const out = at + i + HALF;
     rest[2 * out] = u;
