@@ -1,6 +1,7 @@
 import { signedSize } from "../plots/gather.ts";
 import { Polyline } from "../plots/kit/polyline.ts";
 import type { History } from "../state/history.ts";
+import { feltDrop, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
 import { codeOf } from "../wire/ticks.ts";
@@ -9,6 +10,7 @@ const OUTSIDE = codeOf("phase", "outside");
 const MM = 1e3;
 export const ABOVE_MM = 3; // in front of the skin there is nothing to feel
 const MOST = 20_000; // points; with more, the steps become larger
+const SEEN = 0.05; // of the greatest force: a smaller drop is not seen in the curve, and has no mark
 const FINEST = { depth: 0.01, force: 0.002 } as const; // mm, N
 
 /** A pop at its place on the curve. */
@@ -32,6 +34,10 @@ export function feltAt(history: History, scene: SceneView, tick: number): Felt {
   for (let k = 0; k < 3; k++) depth += (first?.inward_normal[k] ?? 0) * (tip[k]! - (first?.point[k] ?? 0));
   return { depth: depth * MM, force: signedSize(history, "force", history.slot(tick)) };
 }
+
+/** The greatest felt force that a law of the scene has in a tick, N. */
+export const strongestAt = (source: Source, tick: number | null): number =>
+  Math.max(0.2, ...source.laws.value.flatMap(({ lower }) => lower.map(Math.abs))) * scaleOf(source, tick);
 
 /** The source that has the whole attempt. Around a pop it is another one; a moment of a recording has all its ticks. */
 export const wholeOf = (source: Source): Source => (source.excerpt?.event && source.excerpt.of) || source;
@@ -135,6 +141,8 @@ export class Attempt {
     if (tick >= history.end) return; // its tick comes later
     this.seen.add(event);
     if (what !== "pop" || tick < history.first || this.waits) return;
+    const drop = feltDrop(history, event);
+    if (drop !== null && drop < SEEN * strongestAt(this.source, tick)) return;
     const { depth } = feltAt(history, scene, tick);
     const { force } = feltAt(history, scene, Math.max(history.first, tick - 1));
     this.pops = [...this.pops, { event, depth, force }];

@@ -10,7 +10,7 @@ import type { Source } from "../state/source.ts";
 import { type Band, bandsOf } from "../tissue/bands.ts";
 import { asTissue } from "../tissue/layers.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
-import { Attempt, feltAt, wholeOf } from "./attempt.ts";
+import { Attempt, feltAt, strongestAt, wholeOf } from "./attempt.ts";
 import { CurvePicture } from "./curve.ts";
 import { Sentence } from "./sentence.ts";
 
@@ -107,8 +107,7 @@ export const stage: Panel = (root, app) => {
     curve.root.hidden = hidden;
     if (built && !hidden) {
       const attempt = attempts.shown();
-      const strongest = Math.max(0.2, ...source.value.laws.value.flatMap(({ lower }) => lower.map(Math.abs)));
-      const most = ROOM * Math.max(strongest * scaleOf(source.value), attempt.most);
+      const most = ROOM * Math.max(strongestAt(source.value, tick), attempt.most);
       const anew = curve.show({ attempt, bands, most, beside: besideOf(framing.depths.value, view, curve.root), now });
       marks.show(attempt, anew);
     }

@@ -47,7 +47,7 @@ export function fallenForce(history: History, tick: number): "force" | typeof MO
 }
 
 /** The drop of the felt force at a pop, N: the model's times the force scale; null if a limit cut it, or if unknown. */
-function feltDrop(history: History, { tick, drop }: MembraneEvent): number | null {
+export function feltDrop(history: History, { tick, drop }: MembraneEvent): number | null {
   if (tick <= history.first || tick >= history.end) return null;
   const scale = feltShare(history, tick - 1);
   const felt = [tick - 1, tick].every((at) => {

@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import { Attempt, wholeOf } from "../../src/stage/attempt.ts";
 import { Source } from "../../src/state/source.ts";
-import type { MembraneEvent, SceneView } from "../../src/wire/messages.ts";
+import type { LawCurve, MembraneEvent, SceneView } from "../../src/wire/messages.ts";
 import { codeOf } from "../../src/wire/ticks.ts";
 import { batch } from "../support/fill_history.ts";
 
@@ -23,6 +23,7 @@ function ticks({ source, attempt }: ReturnType<typeof run>, depths: number[], fo
       tip: (tick) => [0, 0.001 - depth(tick) / 1e3, 0],
       axis: () => [0, -1, 0],
       force: (tick) => [0, force(depth(tick)), 0],
+      model_force: (tick) => [0, force(depth(tick)), 0],
       phase: (tick) => [depth(tick) > 0 ? STICKING : OUTSIDE],
     }),
   );
@@ -75,6 +76,16 @@ it("a pop stands where the tip was, with the force before it, also if its event 
   expect(pop?.event).toBe(event);
   expect(pop?.depth).toBeCloseTo(0.3, 4);
   expect(pop?.force).toBeCloseTo(0.29, 4);
+});
+
+it("a drop that is not seen in the curve has no mark", () => {
+  const made = run(1000);
+  made.source.laws.value = [{ lower: [-2] }] as unknown as LawCurve[];
+  const pop = (tick: number, drop: number) =>
+    ({ kind: "event", what: "pop", membrane: 0, tick, drop }) as MembraneEvent;
+  made.source.events.value = [pop(10, -0.09), pop(20, -0.11)];
+  ticks(made, down(0, 0.5), () => 1);
+  expect(made.attempt.pops.map(({ event }) => event.tick)).toEqual([20]);
 });
 
 it("again begins anew, once the needle is out; and so does a new run", () => {
