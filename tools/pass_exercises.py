@@ -27,6 +27,7 @@ from person import PATIENCE, new_context
 
 LAPTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
 STEP_MS = 60  # between two moves of the hand: with a key's step of 0.25 mm, 4 mm/s
+MOST = 3  # steps at once, of a hand that goes on while a busy computer looks at the page
 PIXELS = 2.0  # of a move
 ASIDE = {"rolling-vein": 4e-3}  # m towards you, before the needle goes in: the vein lies there
 VIEW = ".view-main > canvas"
@@ -39,7 +40,8 @@ class Keys:
         self.page.locator(VIEW).focus()
 
     def move(self, steps: int) -> None:
-        self.page.keyboard.press("ArrowDown" if steps > 0 else "ArrowUp")
+        for _ in range(abs(steps)):
+            self.page.keyboard.press("ArrowDown" if steps > 0 else "ArrowUp")
 
     def aside(self, way: float) -> None:
         for _ in range(round(way / 0.25e-3)):
@@ -147,15 +149,16 @@ HANDS = {"mouse": Drag, "keys": Keys, "fingers": Fingers}
 
 def attempt(page: Page, client: StudioClient, exercise: Exercise, hand: Keys) -> str:
     """Tries an exercise that has been started. Returns what the dialog says."""
-    pushing = done = False
+    pushing, done, steps = False, False, 1
     before = sum(event["what"] == "pop" for event in client.of("event"))
     if exercise.name in ASIDE:
         hand.aside(ASIDE[exercise.name])
     with_plunger = any(goal.needs_syringe for goal in exercise.goals)
     wall = exercise.space[0]
     sentence, dialog = page.locator(".stage-sentence"), page.get_by_role("dialog")
-    end = time.monotonic() + 150
-    while not dialog.count() and time.monotonic() < end:
+    last = time.monotonic()
+    end = last + 150
+    while not dialog.count() and last < end:
         words, popped = sentence.inner_text(), sum(event["what"] == "pop" for event in client.of("event")) - before
         if with_plunger and not done and popped == wall and not pushing:
             hand.thumb(True)
@@ -164,8 +167,9 @@ def attempt(page: Page, client: StudioClient, exercise: Exercise, hand: Keys) ->
             hand.thumb(False)
             pushing, done = False, True
         if "old still" not in words and not (exercise.file.blind and popped > wall):
-            hand.move(-1 if "raw back" in words else 1)
+            hand.move((-1 if "raw back" in words else 1) * max(1, min(MOST, steps)))
         page.wait_for_timeout(STEP_MS)
+        last, steps = time.monotonic(), round(1e3 * (time.monotonic() - last) / STEP_MS)
     return dialog.inner_text() if dialog.count() else "not passed: no result"
 
 

@@ -86,7 +86,7 @@ def try_once(page: Page, url: str, by: type[Mouse]) -> tuple[float, float, str]:
     hand = by(page, words)
 
     def until(text: str | re.Pattern[str], down: bool) -> str:
-        found = page.get_by_text(text)
+        found = page.get_by_text(text).filter(visible=True).first  # the bench, which is hidden, has the same words
         while not found.is_visible():
             assert time.monotonic() < began + PATIENCE / 1e3, "the page never said it"
             hand.move(down, found)
