@@ -35,10 +35,16 @@ class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
 
 
-def agreed(folder: Path, participant: str) -> bool:
-    """Whether the participant has agreed in a part of the session that is on disk. Raises SessionError."""
+def agreed(protocol: Protocol, folder: Path, participant: str) -> bool:
+    """Whether the participant has agreed in a part of the session that is on disk.
+
+    Raises SessionError if no session of this protocol and participant can be in the folder.
+    """
     path = _path(folder, participant)
     lines = read_session(path) if path.exists() else []
+    for header in lines[:1]:
+        check_header(header, protocol, path)
+    _free_number({*sessions(folder)} - {path}, simulated=False)
     return bool(lines and lines[0].get("consent"))
 
 

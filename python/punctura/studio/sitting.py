@@ -66,7 +66,7 @@ class PerceptionSitting:
         self._through = self._uncover_at = math.inf  # depth behind the judged membrane, m; on the clock of `ticks`
         self._touched = self._was_through = False
         self._answers: Answers | None = None
-        if not protocol.file.consent or agreed(self._folder, participant):
+        if agreed(protocol, self._folder, participant) or not protocol.file.consent:
             self._open()
 
     def start(self) -> None:

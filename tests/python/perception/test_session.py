@@ -29,6 +29,7 @@ from punctura.perception import (
 from punctura.perception.noise import pink_noise
 from punctura.perception.observer import Senses
 from punctura.perception.report import DICTIONARY, write_report
+from punctura.perception.session import agreed
 
 
 @pytest.fixture(scope="module")
@@ -188,7 +189,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     status, _, err = punctura("perception", "analyse", changed)
     assert status == 1 and "another protocol or of a changed one" in err
     with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
-        Session(load_protocol(changed), folder, "P01")
+        agreed(load_protocol(changed), folder, "P01")  # before a person is asked to agree
 
 
 def test_masking_noise_has_as_much_power_in_each_octave() -> None:
