@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -165,7 +166,8 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
     if as_json:
         typer.echo(json_of(found), nl=False)
         return
-    typer.echo((folder / "report.md").read_text(encoding="utf-8"))
+    report = (folder / "report.md").read_text(encoding="utf-8")
+    typer.echo(re.split(r"\n(?:## |!\[)", report, maxsplit=1)[0].rstrip())  # without d' at each level and the picture
     typer.echo(str(folder / "report.md"))
 
 
