@@ -44,7 +44,6 @@ from punctura.identify.noise import Mixture
 from punctura.identify.parameters import default_coupling, default_membrane
 from punctura.identify.plan import information
 from punctura.identify.start import other_grips
-from punctura.identify.uncertainty import CHI2_95
 from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
@@ -52,6 +51,7 @@ from scipy.signal import lfilter
 
 DEVICE_HZ = 1600
 FAR = 10.0  # times the true value, and the true value over it
+CHI2_95 = 3.84  # 95 % of chi-squared with one degree of freedom
 AIR = 2e-3  # m, in front of the first surface
 THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
 WALK = 10.0  # s, after which --walk is reached

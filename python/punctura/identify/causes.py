@@ -64,8 +64,9 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
         return None  # it grows with the depth, as where the next wall resists on the way in
     going_in, coming_out = np.mean(halves, axis=0)
     (same, more), (friction, other) = (0.5 * np.array([a - sign * b for a, b in halves]) for sign in (1, -1))
-    grows = (more - same) / same > PROPORTIONAL * step / shift and abs(other - friction) < 0.5 * abs(more - same)
-    growth = float((more - same) / step) if grows else 0.0
+    rise = more - same
+    grows = rise * same > PROPORTIONAL * same**2 * step / shift and abs(other - friction) < 0.5 * abs(rise)
+    growth = float(rise / step) if grows else 0.0
     return Ways(float(coming_out / going_in), float(going_in - coming_out), growth)
 
 

@@ -146,8 +146,9 @@ def _extended(search: Search, current: Candidate) -> Candidate:
             from_these = [Start(model.start(here, weak)) for weak in (True, False)]
             if not _may_be_worth_it(current, model, from_these):
                 continue
-            if "tissue.growth" in extension.start:
-                fresh = search.starts(model.membranes, True, 2)
+            curved = "tissue.growth" in extension.start
+            if curved or (extension.needs_hold and not extension.after):  # K06 alone bends to a rest, far from both
+                fresh = search.starts(model.membranes, curved, 2)
                 from_these += [replace(one, parameters=model.start(one.parameters)) for one in fresh]
             found = search.fitted(extension.name, model, from_these)
             if found is not None and search.rule.prefers(found, current):

@@ -14,7 +14,7 @@ from punctura.identify.fit import fit as fitted
 from punctura.identify.parameters import NUISANCE, UNITS, Parameters, kind_of
 from punctura.identify.profile import Watch, bound
 from punctura.identify.start import other_grips
-from punctura.identify.uncertainty import CHI2_95, Uncertainty
+from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import TraceError
 
 Array = NDArray[np.float64]
@@ -88,7 +88,7 @@ def _outwards(
     fit, free = main.fit, main.fit.free
     if value is None:
         return None
-    limit = 0.8 * CHI2_95 * main.variance * main.inflation[j]
+    limit = 0.8 * main.limit * main.variance * main.inflation[j]
     names = [name for name in free.names if name != free.names[j]]
     at = float(np.log(value)) if free.logarithmic(j) else value
     last = fit.parameters
@@ -122,7 +122,7 @@ def _modes(main: Uncertainty, others: Sequence[Parameters], watch: Watch) -> Ite
     """Other optima within the confidence region: far from the fit, and with nearly its sum of squares."""
     seen = [main.fit.u]
     errors = np.sqrt(np.diag(main.covariance))
-    limit = CHI2_95 * main.variance * float(main.inflation.max())
+    limit = main.limit * main.variance * float(main.inflation.max())
     for other in others:
         try:
             found = fitted(main.fit.misfit, main.fit.free.names, other)
@@ -139,7 +139,7 @@ def _bounds(uncertainty: Uncertainty, j: int, used: float, watch: Watch) -> tupl
     fit = uncertainty.fit
     if kind_of(fit.free.names[j]) == "surface":
         row = fit.free.derivatives(fit.u)[fit.free.place(j)]
-        spread = float(np.sqrt(max(row @ uncertainty.covariance @ row, 0.0) * CHI2_95))
+        spread = float(np.sqrt(max(row @ uncertainty.covariance @ row, 0.0) * uncertainty.limit))
         value = float(fit.free.values(fit.u)[j])
         if spread > float(np.ptp(fit.misfit.trace.depth)):
             return None, None

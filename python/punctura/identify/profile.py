@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
 from punctura.identify.parameters import Parameters
-from punctura.identify.uncertainty import CHI2_95, Uncertainty
+from punctura.identify.uncertainty import Uncertainty
 
 BETTER = 1.0  # variances of a sample, by which the squares must be less: below that it is the same optimum
 
@@ -58,7 +58,7 @@ def bound(uncertainty: Uncertainty, j: int, side: int, used: float = 0.0, watch:
     if found is None:
         return None
     u = float(np.log(found)) if fit.free.logarithmic(j) else found
-    far = float(np.sqrt(CHI2_95 * uncertainty.covariance[j, j]))
+    far = float(np.sqrt(uncertainty.limit * uncertainty.covariance[j, j]))
     if abs(u - fit.u[j]) >= 0.5 * far:
         return found
     u = fit.u[j] + side * far
@@ -68,10 +68,10 @@ def bound(uncertainty: Uncertainty, j: int, side: int, used: float = 0.0, watch:
 
 
 def _bound(uncertainty: Uncertainty, j: int, side: int, used: float, watch: Watch | None) -> float | None:
-    """Where the profile of parameter j rises by chi-squared; None if it does not within its range."""
+    """Where the profile of parameter j rises by the limit; None if it does not within its range."""
     fit = uncertainty.fit
     free, start = fit.free, fit.u
-    limit = max(CHI2_95 * uncertainty.variance * uncertainty.inflation[j] - used, 0.1 * uncertainty.variance)
+    limit = max(uncertainty.limit * uncertainty.variance * uncertainty.inflation[j] - used, 0.1 * uncertainty.variance)
     error = float(np.sqrt(uncertainty.covariance[j, j]))
     room = (free.high[j] - start[j]) if side > 0 else (start[j] - free.low[j])
     step, below, above = min(1.96 * error, room), (0.0, 0.0), None

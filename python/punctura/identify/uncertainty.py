@@ -6,21 +6,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
+from punctura.identify.noise import effective_samples
 from punctura.trace.samples import equal_runs, rounding
 
 Array = NDArray[np.float64]
-
-CHI2_95 = 3.841458820694124  # 95 % of chi-squared with one degree of freedom
-
 
 ROUND = 0.75  # of the rms error, from which on it is a rounding
 
 
 class Uncertainty:
-    """The covariance of a fit's coordinates, (p, p), for noise whose correlation the residuals show."""
+    """The covariance of a fit's coordinates, (p, p), for noise whose correlation the residuals show.
+
+    limit: by how many variances the squares rise to the bound of a 95 % interval. It is the square of Student's t,
+    because the variance is estimated, too, from the m - p spare ones of m independent samples.
+    """
 
     def __init__(self, fit: Fit) -> None:
+        from scipy.special import stdtrit
+
         n, p = fit.jacobian.shape
+        self.limit = float(stdtrit(max(effective_samples(fit.residuals, p) - p, 1.0), 0.975)) ** 2
         self.fit = fit
         self.variance = fit.sse / max(n - p, 1)
         gram = fit.jacobian.T @ fit.jacobian
