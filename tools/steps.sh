@@ -122,14 +122,21 @@ step_format() {
 step_types() { mypy; }
 
 # compile PRESET [TARGET...]: configures if needed, then builds on all cores, with less weight than the browser that is
-# tested meanwhile. A build folder of another path is configured afresh.
+# tested meanwhile. A build folder of another path is configured afresh. What the wheel's build has compiled is not
+# compiled again in dev, and beside asan neither are the tests of the runtime that asan runs whole.
 compile() {
-  local preset=$1 fresh="" cache=build/$1/CMakeCache.txt
+  local preset=$1 fresh="" settings=() beside_asan=OFF cache=build/$1/CMakeCache.txt
   shift
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then fresh=--fresh; fi
-  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF &&
+  if [ "$preset" = dev ]; then
+    ! has_run asan || beside_asan=ON
+    settings=("-DPUNCTURA_COMPILED=$(of_the_wheel)" "-DPUNCTURA_BESIDE_ASAN=$beside_asan")
+  fi
+  cmake $fresh --preset "$preset" -DCMAKE_COLOR_DIAGNOSTICS=OFF ${settings[@]+"${settings[@]}"} &&
     nice -n 5 cmake --build --preset "$preset" ${1:+--target "$@"}
 }
+
+of_the_wheel() { dirname "$(ls -t "$root"/build/python/*/objects.cmake | head -n 1)"; }
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
@@ -159,13 +166,13 @@ step_cpp() {
     build/dev/tests/core/core_c_decimals && build/dev/tests/capi/capi_tests &&
     tools/check_exports.sh build/dev/capi/libpunctura.so && check_isa && both_tests dev
 }
-check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh build/dev; }
+check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh "$(of_the_wheel)"; }
 
-# Compiles the runtime, tests and each header alone with Clang, for its warnings. Runs the tests under sanitizers with
-# fewer random cases and without numbers whose code other tests reach, because sanitizers are slow. Without AVX: that
-# code differs from the usual one in the width of a vector only, and -O2 with a sanitizer compiles slowly. cpp tests it.
+# Compiles runtime and tests with Clang, for its warnings. Runs the tests under sanitizers with fewer random cases and
+# without numbers whose code other tests reach, because sanitizers are slow. Without AVX: that code differs from the
+# usual one in the width of a vector only, and -O2 with a sanitizer compiles slowly. cpp tests it.
 step_asan() {
-  compile asan core_tests runtime_tests punctura_headers || return
+  compile asan core_tests runtime_tests || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan --test-suite-exclude=numbers
 }
@@ -203,8 +210,7 @@ consumer_in_tree() {
   local prefix=$root/build/consumer/prefix
   cmake -S . -B build/consumer/core -G Ninja && cmake --install build/consumer/core --prefix "$prefix/core" &&
     use_it from-core -DCMAKE_PREFIX_PATH="$prefix/core" &&
-    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON &&
-    build/consumer/subfolder/own_device
+    use_it subfolder -DPUNCTURA_TREE="$root" -DWITH_RUNTIME=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 }
 use_it() {
   cmake -S tests/consumer -B "build/consumer/$1" -G Ninja "${@:2}" && cmake --build "build/consumer/$1" &&
@@ -289,7 +295,7 @@ step_examples() {
 
 # The steps below run only by name.
 
-# Slow, and its findings are a matter of taste.
+# Slow, and its findings are a matter of taste. Compiles each header alone, too.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
 
 # What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases.
