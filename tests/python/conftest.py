@@ -1,5 +1,5 @@
 """Makes `from oracles import ...` work in every test, makes hypothesis draw the same cases every time, and keeps the
-tests of an xdist_group in one worker, and keeps the log of defects out of the user's folders."""
+tests of a file, and of an xdist_group, in one worker, and keeps the log of defects out of the user's folders."""
 
 import atexit
 import os
@@ -81,6 +81,7 @@ def pytest_xdist_make_scheduler(config, log):
 
     class ByFile(LoadGroupScheduling):
         def _split_scope(self, nodeid):
-            return _group_of(nodeid.split("::")[0]) or nodeid
+            file = nodeid.split("::")[0]
+            return _group_of(file) or file  # what a file's tests share is made once
 
     return ByFile(config, log)

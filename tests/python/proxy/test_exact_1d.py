@@ -7,9 +7,6 @@ import punctura
 import pytest
 from oracles import cases, core, exact_residual, proxy_1d, random_laws, random_runs
 
-pytestmark = pytest.mark.xdist_group("exact_1d")  # in one worker: their shared fixture takes seconds
-
-
 TICKS = 200
 
 

@@ -4,9 +4,6 @@ import numpy as np
 import pytest
 from oracles import cases, core, proxy_1d, random_runs
 
-pytestmark = pytest.mark.xdist_group("paper_1d")  # in one worker: their shared fixture takes seconds
-
-
 TICKS = 200
 
 

@@ -8,9 +8,6 @@ import pytest
 from oracles import cases, core, exact_residual, proxy_3d, random_scenes
 from oracles.proxy_3d import dot
 
-pytestmark = pytest.mark.xdist_group("proxy_3d")  # in one worker: their shared fixture takes seconds
-
-
 TICKS = 120
 ENTERED = [punctura.Phase.sticking.value, punctura.Phase.sliding_in.value, punctura.Phase.sliding_out.value]
 
