@@ -16,7 +16,7 @@ from pathlib import Path
 import studio_states as do
 from chromium import launch, on_the_bench
 from PIL import Image
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 from stage_states import gave
 from studio_process import StudioProcess
 
@@ -151,6 +151,7 @@ def main() -> int:
         parser.error(f"unknown: {', '.join(wrong)}; known: {', '.join(sorted(known))}")
     arguments.out.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("PUNCTURA_LAB_NICE", "0")  # a computation of the Lab ends also on a busy computer
+    expect.set_options(timeout=do.PATIENCE)
     with sync_playwright() as playwright:
         browser = launch(playwright)
         (take_all if arguments.all_states else take)(browser, arguments.out, arguments.names)
