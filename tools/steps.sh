@@ -136,7 +136,8 @@ compile() {
     nice -n 5 cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-of_the_wheel() { dirname "$(ls -t "$root"/build/python/*/objects.cmake | head -n 1)"; }
+# The folder of the wheel's last build: there is one for each Python, and objects.cmake keeps its date in a later build.
+of_the_wheel() { dirname "$(ls -t "$root"/build/python/*/.ninja_log | head -n 1)"; }
 
 # side_by_side A B: runs two single-threaded programs at the same time. Prints the output of a failed one last.
 side_by_side() {
