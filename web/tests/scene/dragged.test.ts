@@ -59,9 +59,9 @@ function drawSheets(): (moment: Moment) => Mesh[] {
   };
 }
 
-function drawBlock(): (moment: Moment) => Mesh[] {
+function drawBlock(more = 0): (moment: Moment) => Mesh[] {
   const drawn = new Block(theme);
-  drawn.build(block, extentOf(block).size);
+  drawn.build(block, extentOf(block).size, more, more);
   const camera = new PerspectiveCamera();
   camera.position.set(20, 20, 90);
   return (moment) => {
@@ -74,6 +74,7 @@ function drawBlock(): (moment: Moment) => Mesh[] {
 describe.each([
   ["sheets", drawSheets],
   ["a block", drawBlock],
+  ["a block that goes on at both ends", () => drawBlock(60)],
 ] as const)("a tilted needle that is dragged straight down through %s", (_, drawing) => {
   it("leaves the drawn tissue whole, of bounded size, and as it was before when it is back", () => {
     const draw = drawing();
