@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "punctura/model/law_constants.hpp"
+#include "punctura/model/membrane.hpp"
 #include "punctura/proxy/coupling.hpp"
 
 namespace bench {

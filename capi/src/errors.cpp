@@ -1,4 +1,4 @@
-#include "errors.hpp"
+#include "common.hpp"
 
 #include "punctura/safety/fault.hpp"
 

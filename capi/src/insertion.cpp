@@ -1,6 +1,6 @@
 // The insertion of the C ABI.
-#include "punctura/servo/record.hpp"
-#include "scene.hpp"
+#include "common.hpp"
+#include "punctura/servo/snapshot.hpp"
 #include "stepper.hpp"
 
 using namespace punctura::c;

@@ -1,7 +1,7 @@
 // The proxies of the C ABI: one membrane, on a line and in space.
+#include "common.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
-#include "punctura/servo/record.hpp"
-#include "scene.hpp"
+#include "punctura/servo/snapshot.hpp"
 #include "stepper.hpp"
 
 namespace punctura::c {

@@ -1,14 +1,13 @@
 // The scene of the C ABI: structs, values by path, and words.
-#include "scene.hpp"
+#include "common.hpp"
 
 #include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
-#include "punctura/scene/by_path.hpp"
 #include "punctura/scene/usual.hpp"
-#include "structs.hpp"
+#include "punctura/scene/by_path.hpp"
 
 namespace punctura::c {
 

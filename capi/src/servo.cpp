@@ -1,5 +1,5 @@
 // The servo step of the C ABI.
-#include "scene.hpp"
+#include "common.hpp"
 #include "stepper.hpp"
 
 using namespace punctura::c;

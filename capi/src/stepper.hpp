@@ -8,10 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "errors.hpp"
+#include "common.hpp"
 #include "punctura/servo/snapshot.hpp"
 #include "punctura/state/archive.hpp"
-#include "structs.hpp"
 
 namespace punctura::c {
 

@@ -24,9 +24,9 @@
 #include <algorithm>
 #include <map>
 
+#include "common.hpp"
 #include "punctura/model/decimal.hpp"
 #include "punctura/scene/by_path.hpp"
-#include "scene.hpp"
 #include "scene_text.hpp"
 
 #ifdef PUNCTURA_C_TOML

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "common.hpp"
 #include "punctura/model/decimal.hpp"
 #include "punctura/scene/by_path.hpp"
-#include "scene.hpp"
 
 namespace punctura::c {
 namespace {

@@ -19,8 +19,8 @@
 #include "punctura/scene/values.hpp"
 #include "punctura/servo/any_step.hpp"
 #include "punctura/state/archive.hpp"
-#include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
+#include "punctura/syringe/syringe.hpp"
 #if defined(__cpp_exceptions)
 #include "punctura/lab/plant/check.hpp"
 #include "punctura/lab/plant/experiment.hpp"

@@ -4,15 +4,14 @@
 
 #include <optional>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura_runtime/batch/line_batch.hpp"
 #include "simd_code.hpp"
 #include "state.hpp"
 #include "ticks.hpp"
+#include "value.hpp"
 #include "without_lock.hpp"
-#include "word.hpp"
 
 namespace punctura::bindings {
 namespace {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura_runtime/batch/fleet.hpp"
 #include "simd_code.hpp"

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "state.hpp"

@@ -1,7 +1,6 @@
 // core/punctura/proxy: the discrete-time systems of K06 section 3, for one membrane.
 #include "punctura/proxy/proxy_3d.hpp"
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/scene/check.hpp"

@@ -8,7 +8,6 @@
 #include "punctura_runtime/loop/step_maker.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"
-#include "tick_store.hpp"
 #include "ticks.hpp"
 
 namespace punctura::bindings {

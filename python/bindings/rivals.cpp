@@ -4,7 +4,6 @@
 #include "punctura/rivals/rival_insertion.hpp"
 #include "run_in_space.hpp"
 #include "value.hpp"
-#include "word.hpp"
 
 namespace punctura::bindings {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "punctura/servo/record.hpp"
+#include "punctura/servo/snapshot.hpp"
 #include "state.hpp"
 #include "tick_columns.hpp"
 #include "ticks.hpp"

@@ -7,7 +7,6 @@
 
 #include <map>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
 #include "punctura/scene/keys.hpp"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "simd_code.hpp"
 #include "ticks.hpp"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "arguments.hpp"
+#include "bindings.hpp"
+#include "punctura_runtime/batch/blocks.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
-#include "punctura_runtime/batch/run_options.hpp"
 #include "ticks.hpp"
 #include "without_lock.hpp"
 

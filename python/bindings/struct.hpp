@@ -15,11 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/model/field.hpp"
 #include "value.hpp"
-#include "word.hpp"
 
 namespace punctura::bindings {
 

@@ -1,11 +1,10 @@
 // core/punctura/syringe: the plunger of a syringe under the thumb.
 #include <tuple>
 
-#include "arguments.hpp"
 #include "bindings.hpp"
 #include "punctura/scene/check.hpp"
-#include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
+#include "punctura/syringe/syringe.hpp"
 #include "state.hpp"
 #include "struct.hpp"
 

@@ -7,8 +7,6 @@
 #include <tuple>
 #include <vector>
 
-#include "tick_store.hpp"
-
 namespace punctura::bindings {
 struct TickColumns::Columns {
   std::array<bool, std::tuple_size_v<decltype(experiment_table)>> wanted{};

@@ -2,9 +2,9 @@
 #include <nanobind/stl/optional.h>
 
 #include "bindings.hpp"
-#include "punctura/lab/plant/experiment_table.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 #include "struct.hpp"
-#include "tick_store.hpp"
+#include "tick_columns.hpp"
 
 namespace punctura::bindings {
 namespace {

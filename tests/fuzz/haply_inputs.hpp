@@ -9,11 +9,10 @@
 #include <string_view>
 
 #include "punctura/lab/plant/noise.hpp"
-#include "punctura_runtime/backends/haply/axes.hpp"
 #include "punctura_runtime/backends/haply/frames.hpp"
-#include "punctura_runtime/backends/haply/handshake.hpp"
 #include "punctura_runtime/backends/haply/service.hpp"
 #include "punctura_runtime/backends/haply/state.hpp"
+#include "punctura_runtime/backends/haply/websocket.hpp"
 
 namespace punctura::test {
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PROGRAM = '#include "punctura/model/band.hpp"\nint main() { return 0; }\n'
+PROGRAM = '#include "punctura/model/piecewise_band.hpp"\nint main() { return 0; }\n'
 
 
 def compile_with(option, tmp_path):

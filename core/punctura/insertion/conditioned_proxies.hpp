@@ -12,8 +12,8 @@
 #include <utility>
 #include <variant>
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/storage.hpp"
-#include "punctura/model/words.hpp"
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/signal/conditioning.hpp"
 #include "punctura/signal/entry_direction.hpp"

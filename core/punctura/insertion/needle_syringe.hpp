@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "punctura/model/storage.hpp"
-#include "punctura/syringe/opening.hpp"
 #include "punctura/syringe/plunger.hpp"
+#include "punctura/syringe/syringe.hpp"
 
 namespace punctura {
 

@@ -7,7 +7,6 @@
 
 #include "punctura/model/lane.hpp"
 #include "punctura/model/membrane.hpp"
-#include "punctura/model/needle.hpp"
 #include "punctura/model/profile.hpp"
 #include "punctura/model/tissue.hpp"
 

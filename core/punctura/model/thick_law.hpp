@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "punctura/model/law_constants.hpp"
+#include "punctura/model/membrane.hpp"
 #include "punctura/model/piecewise_band.hpp"
 
 namespace punctura {

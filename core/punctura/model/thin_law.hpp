@@ -1,7 +1,7 @@
 // The law of K06 section 2.1: an infinitely thin membrane, crossed along its normal.
 #pragma once
 
-#include "punctura/model/law_constants.hpp"
+#include "punctura/model/membrane.hpp"
 #include "punctura/model/piecewise_band.hpp"
 
 namespace punctura {

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <vector>
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/profile.hpp"
 #include "punctura/model/validity.hpp"
-#include "punctura/model/words.hpp"
 
 namespace punctura {
 

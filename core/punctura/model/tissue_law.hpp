@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "punctura/model/average.hpp"
 #include "punctura/model/grip.hpp"
 #include "punctura/model/law.hpp"
+#include "punctura/model/profile_law.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/tissue_band.hpp"
 

@@ -9,7 +9,6 @@
 #include "punctura/model/decimal.hpp"
 #include "punctura/model/field.hpp"
 #include "punctura/model/membrane.hpp"
-#include "punctura/model/needle.hpp"
 
 namespace punctura {
 

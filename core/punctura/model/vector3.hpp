@@ -9,7 +9,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "punctura/model/finite_math.hpp"
 #include "punctura/model/lane.hpp"
 
 namespace punctura {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/lane.hpp"
-#include "punctura/model/words.hpp"
 
 namespace punctura {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "punctura/model/words.hpp"
+#include "punctura/model/field.hpp"
 
 namespace punctura {
 

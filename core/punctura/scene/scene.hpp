@@ -2,23 +2,49 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "punctura/insertion/insertion.hpp"
+#include "punctura/model/field.hpp"
 #include "punctura/model/membrane.hpp"
-#include "punctura/model/needle.hpp"
 #include "punctura/model/omni.hpp"
 #include "punctura/model/tissue.hpp"
 #include "punctura/proxy/coupling.hpp"
 #include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura/proxy/solver.hpp"
-#include "punctura/scene/look.hpp"
 #include "punctura/signal/conditioning.hpp"
 #include "punctura/syringe/syringe.hpp"
 
 namespace punctura {
+
+/// The drawn kind of a membrane. `plain` is a sheet of glass.
+enum class Look : std::uint8_t {
+  plain,
+  skin,
+  fat,
+  muscle,
+  fascia,
+  ligament,
+  ligamentum_flavum,
+  dura,
+  vein_wall,
+  artery_wall,
+};
+
+/// The content of the space behind a membrane, up to the next membrane. Only `blood` has a meaning beyond the
+/// picture: it bounds the lumen (lumen.hpp).
+enum class Behind : std::uint8_t { tissue, blood, fat, muscle, epidural_space, cerebrospinal_fluid };
+
+template <>
+inline constexpr std::array<std::string_view, 10> words_of<Look>{
+    "plain", "skin", "fat", "muscle", "fascia", "ligament", "ligamentum flavum", "dura", "vein wall", "artery wall"};
+template <>
+inline constexpr std::array<std::string_view, 6> words_of<Behind>{"tissue", "blood",          "fat",
+                                                                  "muscle", "epidural space", "cerebrospinal fluid"};
 
 /// The outlet of tissue that takes no liquid: 1 mL leaves in a day at 10 kPa. Illustrative.
 inline constexpr Outlet dense_tissue{1e15, 0};

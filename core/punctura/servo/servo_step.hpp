@@ -19,7 +19,6 @@
 #include "punctura/insertion/scene_insertion.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
-#include "punctura/servo/record.hpp"
 #include "punctura/servo/snapshot.hpp"
 #include "punctura/state/archive.hpp"
 

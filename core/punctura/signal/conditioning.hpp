@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
+#include "punctura/model/field.hpp"
 #include "punctura/model/omni.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura/model/words.hpp"
 #include "punctura/signal/line_fit.hpp"
 #include "punctura/signal/low_pass.hpp"
 

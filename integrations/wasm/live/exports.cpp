@@ -4,9 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "errors.hpp"
+#include "common.hpp"
 #include "live_run.hpp"
-#include "scene.hpp"
 
 using punctura::HandPose;
 using punctura::Vector3d;

@@ -19,7 +19,7 @@
 #include "punctura/lab/plant/plant.hpp"
 #include "punctura/lab/plant/stroke_ends.hpp"
 #include "punctura/scene/build.hpp"
-#include "punctura/syringe/thumb.hpp"
+#include "punctura/syringe/plunger.hpp"
 
 namespace punctura::live {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "punctura_runtime/backends/status.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 
 namespace punctura {
 

@@ -23,4 +23,14 @@ void for_each_block(std::size_t count, std::size_t threads, Work& work, const st
 /// The number of threads to use if 0 are wanted: one for each processor that this process may use.
 std::size_t usable_threads(std::size_t wanted) noexcept;
 
+struct LineCode;
+
+struct RunOptions {
+  std::size_t threads = 0;         ///< 0: one for each processor
+  std::size_t block = 256;         ///< trials that one thread computes together
+  const LineCode* code = nullptr;  ///< null: the fastest instruction set
+  /// Called 20 times a second with the finished part of all work. The run stops if it returns false. May be empty.
+  std::function<bool(std::size_t, std::size_t)> watch{};
+};
+
 }  // namespace punctura::batch

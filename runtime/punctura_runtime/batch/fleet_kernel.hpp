@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "punctura_runtime/batch/fleet_lanes.hpp"
 #include "punctura_runtime/batch/isa.hpp"
+#include "punctura_runtime/batch/scene_block.hpp"
 #include "punctura_runtime/batch/scene_lanes.hpp"
 
 namespace punctura::batch {

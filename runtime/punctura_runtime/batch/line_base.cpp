@@ -1,5 +1,5 @@
-// The vectors that every processor of the architecture has. The macros choose them, not CMake: a universal binary of
-// macOS is compiled for two architectures at once.
+// What runs on every processor of the architecture: its vectors, and one double at a time. Macros choose the vectors,
+// not CMake: a universal binary of macOS is compiled for two architectures at once.
 #include "punctura_runtime/batch/line_code.hpp"
 
 namespace punctura::batch {
@@ -11,5 +11,12 @@ const LineCode* line_code_base() noexcept { return &line_code_of<Neon>; }
 #else
 const LineCode* line_code_base() noexcept { return nullptr; }
 #endif
+
+const LineCode& line_code_portable() noexcept {
+  static constexpr LineCode code{
+      Portable::name, Portable::lanes, run_line<Portable, Paper>, run_line<Portable, Exact>, nullptr, nullptr,
+      nullptr,        nullptr};
+  return code;
+}
 
 }  // namespace punctura::batch

@@ -9,9 +9,9 @@
 
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/coupling.hpp"
-#include "punctura_runtime/batch/line_tables.hpp"
+#include "punctura_runtime/batch/blocks.hpp"
+#include "punctura_runtime/batch/line_block.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
-#include "punctura_runtime/batch/run_options.hpp"
 
 namespace punctura::batch {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "punctura/proxy/solver.hpp"
-#include "punctura_runtime/batch/fleet_lanes.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "punctura/lab/plant/check.hpp"
 #include "punctura/scene/values.hpp"
-#include "punctura/servo/record.hpp"
+#include "punctura/servo/snapshot.hpp"
 #include "punctura_runtime/batch/blocks.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
 #include "punctura_runtime/batch/scene_summary.hpp"

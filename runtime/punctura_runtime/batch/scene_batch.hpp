@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "punctura/lab/plant/experiment.hpp"
-#include "punctura_runtime/batch/run_options.hpp"
+#include "punctura_runtime/batch/blocks.hpp"
 #include "punctura_runtime/batch/run_summary.hpp"
 
 namespace punctura::batch {

@@ -12,11 +12,10 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura/device/placement.hpp"
-#include "punctura/syringe/thumb.hpp"
+#include "punctura/syringe/plunger.hpp"
 #include "punctura_runtime/loop/histogram.hpp"
 #include "punctura_runtime/loop/step_maker.hpp"
 #include "punctura_runtime/loop/thumb_loop.hpp"
-#include "punctura_runtime/loop/tick_watch.hpp"
 #include "punctura_runtime/loop/watch_thread.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"

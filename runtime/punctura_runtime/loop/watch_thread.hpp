@@ -1,8 +1,10 @@
 // A thread of this program, not of Python: nothing that a program in Python does can delay it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <system_error>
@@ -12,6 +14,28 @@
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
+
+class TickWatch {
+ public:
+  /// ticks: before the device was started. now: once it has started, ns.
+  void begin(std::uint64_t ticks, std::int64_t now) noexcept {
+    first_ = ticks_ = ticks;
+    since_ = now;
+  }
+
+  /// Seconds without a tick, if the device may not be silent for so long; otherwise 0. deadline: of the gate, s.
+  double silent(std::uint64_t ticks, std::int64_t now, const LongestSilence& longest, double deadline) noexcept {
+    if (ticks != ticks_) since_ = now;
+    ticks_ = ticks;
+    const double passed = static_cast<double>(now - since_) * 1e-9;
+    const double most = std::max(ticks == first_ ? longest.at_start : longest.later, 5 * deadline);
+    return passed < most ? 0 : passed;
+  }
+
+ private:
+  std::uint64_t first_ = 0, ticks_ = 0;
+  std::int64_t since_ = 0;
+};
 
 /// Calls look() about 20 times a second, until it returns false, or until stop(). It asks for a low real-time priority,
 /// so that a busy computer does not hold it up.

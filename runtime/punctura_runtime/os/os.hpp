@@ -65,4 +65,9 @@ void* load_library(const char* name, std::string& error);
 /// nullptr if the library has no such symbol.
 void* library_symbol(void* library, const char* name) noexcept;
 
+#ifdef _WIN32
+/// error: of GetLastError() or WSAGetLastError(). Without the full stop and the line break that Windows adds.
+std::string windows_words(unsigned long error);
+#endif
+
 }  // namespace punctura::os

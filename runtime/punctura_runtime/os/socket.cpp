@@ -7,8 +7,6 @@
 #define WIN32_LEAN_AND_MEAN
 #include <winsock2.h>
 #include <ws2tcpip.h>
-
-#include "punctura_runtime/os/windows_words.hpp"
 #else
 #include <fcntl.h>
 #include <netdb.h>

@@ -12,7 +12,6 @@
 #include <string>
 
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/os/windows_words.hpp"
 
 #ifndef CREATE_WAITABLE_TIMER_HIGH_RESOLUTION
 #define CREATE_WAITABLE_TIMER_HIGH_RESOLUTION 0x00000002

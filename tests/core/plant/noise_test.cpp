@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "punctura/lab/plant/tick_noise.hpp"
-
 using namespace punctura;
 
 TEST_CASE("a normal number is that of Box and Muller to a few units in the last place") {

@@ -9,7 +9,7 @@
 #include "../support/tick.hpp"
 #include "punctura/scene/build.hpp"
 #include "punctura/state/archive.hpp"
-#include "punctura/syringe/thumb.hpp"
+#include "punctura/syringe/plunger.hpp"
 
 using namespace punctura;
 using namespace punctura::test;

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "punctura/lab/plant/experiment_table.hpp"
+#include "punctura/lab/plant/experiment.hpp"
 
 using namespace punctura;
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "punctura/model/band.hpp"
+#include "punctura/model/piecewise_band.hpp"
 #include "punctura/model/profile.hpp"
 #include "random_law.hpp"
 

@@ -1,8 +1,7 @@
 // The motion of the tip by many small steps, to compare BasicTipMotion with: another method, and slow.
 #pragma once
 
-#include "punctura/lab/plant/device_dynamics.hpp"
-#include "punctura/lab/plant/hand_dynamics.hpp"
+#include "punctura/lab/plant/hand.hpp"
 
 namespace punctura::test {
 

@@ -1,5 +1,5 @@
 // The layers beside a needle's opening, as one outlet.
-#include "punctura/syringe/opening.hpp"
+#include "punctura/syringe/syringe.hpp"
 
 #include <doctest/doctest.h>
 

@@ -16,7 +16,7 @@ from punctura.ticks.fields import file_columns
 
 ROOT = Path(__file__).parents[3]
 SOURCE = (ROOT / "core/punctura/servo/tick_table.hpp").read_text() + (
-    ROOT / "core/punctura/lab/plant/experiment_table.hpp"
+    ROOT / "core/punctura/lab/plant/experiment.hpp"
 ).read_text()
 
 

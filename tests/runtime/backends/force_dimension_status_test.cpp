@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fakes/drd/rig.hpp"
-#include "punctura_runtime/backends/force_dimension/library.hpp"
+#include "punctura_runtime/backends/force_dimension/dhd_api.hpp"
 #include "punctura_runtime/backends/registry.hpp"
 #include "runtime/support/environment.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "punctura_runtime/backends/haply/handshake.hpp"
+#include "punctura_runtime/backends/haply/websocket.hpp"
 
 using namespace punctura::haply;
 

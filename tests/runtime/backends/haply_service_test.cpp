@@ -5,9 +5,8 @@
 #include <thread>
 
 #include "core/support/allocations.hpp"
-#include "punctura_runtime/backends/haply/handshake.hpp"
-#include "punctura_runtime/backends/haply/haply_backend.hpp"
 #include "punctura_runtime/backends/haply/haply_device.hpp"
+#include "punctura_runtime/backends/haply/websocket.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "runtime/support/haply_fake.hpp"
 

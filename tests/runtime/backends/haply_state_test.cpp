@@ -11,7 +11,6 @@
 #include "fuzz/haply_inputs.hpp"
 #include "punctura/lab/plant/noise.hpp"
 #include "punctura/model/vector3.hpp"
-#include "punctura_runtime/backends/haply/axes.hpp"
 #include "punctura_runtime/backends/haply/json.hpp"
 
 using namespace punctura;

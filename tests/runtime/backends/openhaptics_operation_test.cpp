@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "punctura_runtime/backends/openhaptics/hd_operation.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
 
 using namespace punctura;
 

@@ -7,7 +7,7 @@
 
 #include "core/support/paper_scene.hpp"
 #include "punctura_runtime/backends/backend.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_library.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_interface.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "punctura_runtime/os/os.hpp"
 #include "runtime/support/environment.hpp"

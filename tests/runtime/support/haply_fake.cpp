@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "punctura/model/decimal.hpp"
-#include "punctura_runtime/backends/haply/handshake.hpp"
+#include "punctura_runtime/backends/haply/websocket.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura::test {

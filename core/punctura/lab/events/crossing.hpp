@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "punctura/model/law.hpp"
-#include "punctura/model/needle.hpp"
+#include "punctura/model/membrane.hpp"
 #include "punctura/model/validity.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/in_space.hpp"

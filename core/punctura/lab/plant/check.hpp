@@ -1,7 +1,6 @@
 // The permitted values of a simulated device, hand and strokes.
 #pragma once
 
-#include "punctura/lab/plant/device_dynamics.hpp"
 #include "punctura/lab/plant/hand.hpp"
 #include "punctura/lab/plant/motion.hpp"
 #include "punctura/model/validity.hpp"

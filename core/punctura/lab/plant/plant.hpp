@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "punctura/lab/plant/hand.hpp"
-#include "punctura/lab/plant/tick_noise.hpp"
+#include "punctura/lab/plant/noise.hpp"
 #include "punctura/lab/plant/tip_motion.hpp"
 
 namespace punctura {

@@ -11,7 +11,6 @@
 #include "punctura/lab/trace/live_line.hpp"
 #include "punctura/lab/trace/live_puncture.hpp"
 #include "punctura/model/field.hpp"
-#include "punctura/model/words.hpp"
 #include "punctura/state/archive.hpp"
 
 namespace punctura {

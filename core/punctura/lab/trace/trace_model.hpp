@@ -15,7 +15,7 @@
 
 #include "punctura/lab/trace/dual.hpp"
 #include "punctura/lab/trace/jump.hpp"
-#include "punctura/model/needle.hpp"
+#include "punctura/model/membrane.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/exact.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/force_dimension/dhd_api.hpp"
-#include "punctura_runtime/backends/status.hpp"
 
 namespace punctura::force_dimension {
 

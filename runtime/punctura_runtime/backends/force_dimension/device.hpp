@@ -1,6 +1,7 @@
 // Force Dimension's omega, delta, sigma and lambda, and the Novint Falcon, as devices.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <optional>
@@ -8,12 +9,27 @@
 #include <vector>
 
 #include "punctura_runtime/backends/backend.hpp"
-#include "punctura_runtime/backends/force_dimension/axes.hpp"
 #include "punctura_runtime/backends/force_dimension/connection.hpp"
-#include "punctura_runtime/backends/force_dimension/library.hpp"
+#include "punctura_runtime/backends/force_dimension/dhd_api.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
 
 namespace punctura::force_dimension {
+
+using Triple = std::array<double, 3>;
+
+/// A position, a direction or a force of the device in Punctura's axes.
+constexpr Triple to_ours(const Triple& device) noexcept { return {device[1], device[2], device[0]}; }
+
+/// The inverse rotation.
+constexpr Triple to_device(const Triple& ours) noexcept { return {ours[2], ours[0], ours[1]}; }
+
+/// Rotates `tool` from the axes of the handle to those of the device. frame: rows of the handle's rotation matrix.
+constexpr Triple turned(const double (&frame)[3][3], const Triple& tool) noexcept {
+  Triple d{};
+  for (int row = 0; row < 3; ++row)
+    d[static_cast<unsigned>(row)] = frame[row][0] * tool[0] + frame[row][1] * tool[1] + frame[row][2] * tool[2];
+  return d;
+}
 
 inline constexpr double fastest = 4000;  ///< Hz: the maker's rating for USB
 

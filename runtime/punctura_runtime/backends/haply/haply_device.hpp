@@ -68,4 +68,6 @@ class HaplyDevice : public PolledDevice {
   std::atomic<Trouble> trouble_{Trouble::none};  ///< once it is not `none`, close_reason() may be read
 };
 
+BackendStatus status_at(const std::string& url);
+
 }  // namespace punctura::haply

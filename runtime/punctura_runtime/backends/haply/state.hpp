@@ -1,7 +1,8 @@
-// The messages of the Inverse Service, and those to it.
+// The messages of the Inverse Service, those to it, and its axes.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -61,5 +62,18 @@ constexpr std::string_view name(ForceKey key) noexcept { return key == ForceKey:
 /// Writes the command of a tick into `out`, which has 512 bytes or more. force: N, finite, in the service's axes.
 /// Returns the size.
 std::size_t write_force(std::string_view id, ForceKey key, const Vector& force, std::span<char> out) noexcept;
+
+/// A proper rotation: its transpose converts forces back.
+constexpr std::array<double, 3> ours(const Vector& v) noexcept { return {v[0], v[2], -v[1]}; }
+constexpr Vector theirs(const std::array<double, 3>& v) noexcept { return {v[0], -v[2], v[1]}; }
+
+/// The direction of a grip, R(q) (+Y), as a unit vector in Punctura's axes; nothing if q is not a rotation.
+inline std::optional<std::array<double, 3>> pointing(const Quaternion& q) noexcept {
+  const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  if (!(norm2 > 1e-6) || !std::isfinite(norm2)) return {};
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  const Vector along{2 * (x * y - w * z) / norm2, 1 - 2 * (x * x + z * z) / norm2, 2 * (y * z + w * x) / norm2};
+  return ours(along);
+}
 
 }  // namespace punctura::haply

@@ -1,4 +1,4 @@
-#include "punctura_runtime/backends/openhaptics/hd_library.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_interface.hpp"
 
 #include <map>
 #include <mutex>

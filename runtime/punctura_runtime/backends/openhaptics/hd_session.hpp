@@ -1,12 +1,13 @@
-// An open device of the HD library and its data. No force, no thread.
+// An open device of the HD library and its data, and a trial of its scheduler. No force.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_interface.hpp"
-#include "punctura_runtime/backends/status.hpp"
 
 namespace punctura::hd {
 
@@ -45,5 +46,19 @@ class Session {
   std::string name_;
   bool tells_temperature_ = false, tells_calibration_ = false;
 };
+
+struct Trial {
+  unsigned long set;                    ///< Hz, as accepted by the library
+  double rate;                          ///< measured, Hz
+  std::vector<std::string> statements;  ///< for the user
+};
+
+/// Sets the rate, measures it over `duration` (s), and renews the calibration if that needs no user. Throws Refusal,
+/// also if the measurement takes longer by more than `patience` (s).
+Trial try_out(const Session& session, double wanted_rate, double duration, double patience,
+              std::int64_t (*now_ns)() noexcept);
+
+/// Throws Refusal if the user must calibrate the device.
+void require_calibration(const Interface& hd, std::uint32_t status);
 
 }  // namespace punctura::hd

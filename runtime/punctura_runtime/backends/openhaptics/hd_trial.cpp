@@ -1,4 +1,4 @@
-#include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
+#include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -7,7 +7,6 @@
 
 #include "punctura/model/decimal.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_operation.hpp"
 
 namespace punctura::hd {
 

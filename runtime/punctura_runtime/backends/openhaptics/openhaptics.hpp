@@ -9,7 +9,6 @@
 
 #include "punctura_runtime/backends/backend.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_trial.hpp"
 #include "punctura_runtime/backends/openhaptics/openhaptics_tick.hpp"
 
 namespace punctura {

@@ -7,7 +7,6 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_errors.hpp"
-#include "punctura_runtime/backends/openhaptics/hd_operation.hpp"
 #include "punctura_runtime/backends/openhaptics/hd_session.hpp"
 
 namespace punctura::hd {
