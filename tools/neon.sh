@@ -24,7 +24,7 @@ export -f compile
 rm -f "$out"/*.o
 { printf '%s\n' tests/core/main.cpp tests/runtime/batch/*_test.cpp
   printf 'runtime/punctura_runtime/batch/%s.cpp\n' line_base line_batch blocks run_line lane_trials \
-    scene_trials scene_batch fleet; } |
+    scene_batch fleet; } |
   xargs -P 2 -I{} bash -ec 'compile {}'
 aarch64-linux-gnu-g++ -static "$out"/*.o -pthread -o "$out/tests"
 qemu-aarch64 "$out/tests"

@@ -63,7 +63,7 @@ constexpr T absent() noexcept {
 }
 
 /// Collects snapshots without the GIL, then returns a punctura.Ticks with one row per snapshot. Compiled once, in
-/// tick_columns.cpp, because the loops over the fields take a compiler seconds.
+/// tick_table.cpp, because the loops over the fields take a compiler seconds.
 class TickColumns {
  public:
   /// only: names of the fields to keep; empty for all. with_extra: also what only an experiment knows.

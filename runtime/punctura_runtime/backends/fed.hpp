@@ -6,7 +6,7 @@
 
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/triple_buffer.hpp"
+#include "punctura_runtime/ring/handover.hpp"
 
 namespace punctura {
 

@@ -4,8 +4,6 @@
 #include <system_error>
 #include <utility>
 
-#include "punctura_runtime/loop/pacer.hpp"
-
 namespace punctura {
 
 void PolledDevice::start(Tick tick) {
@@ -45,7 +43,7 @@ double PolledDevice::now() const noexcept {
 }
 
 void PolledDevice::run(Tick tick) noexcept {
-  Pacer<LoopClock> pacer(info_.rate, pacing_.clock);
+  Pacer<> pacer(info_.rate, pacing_.clock);
   start_ns_ = pacing_.clock.now();
   Next next = Next::tick;
   for (count_ = 0; !stopping_; ++count_) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "punctura/device/device.hpp"
+#include "punctura_runtime/loop/pacer.hpp"
 #include "punctura_runtime/os/os.hpp"
 
 namespace punctura {
@@ -16,15 +17,6 @@ namespace punctura {
 inline void refuse_second_loop(bool runs) {
   if (runs) throw DeviceError("the device runs in another loop already: stop that one first");
 }
-
-/// The clock of the ticks. Tests replace it.
-struct LoopClock {
-  std::int64_t (*now_ns)() noexcept = os::now_ns;
-  void (*sleep_until_ns)(std::int64_t) noexcept = os::sleep_until_ns;
-
-  std::int64_t now() const noexcept { return now_ns(); }
-  void sleep_until(std::int64_t time) const noexcept { sleep_until_ns(time); }
-};
 
 /// It has one thread from start() to stop(), and counts as running until stop(), even if its ticks ended earlier. A
 /// derived class calls stop() in its destructor, before its members end.

@@ -11,7 +11,7 @@
 #include "punctura/model/omni.hpp"
 #include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/os/os.hpp"
-#include "punctura_runtime/ring/triple_buffer.hpp"
+#include "punctura_runtime/ring/handover.hpp"
 
 namespace punctura {
 

@@ -7,15 +7,15 @@
 
 namespace punctura {
 
-/// The system's clock. Tests replace it.
-struct SystemClock {
-  std::int64_t now() const noexcept { return os::now_ns(); }
-  void sleep_until(std::int64_t time) const noexcept { os::sleep_until_ns(time); }
+/// The clock of the ticks. Tests replace it.
+struct LoopClock {
+  std::int64_t (*now)() noexcept = os::now_ns;
+  void (*sleep_until)(std::int64_t) noexcept = os::sleep_until_ns;
 };
 
 /// Wakes at start, start + T, start + 2T, ... A late tick does not shift the later ones. Ticks whose whole period has
 /// passed are skipped and counted; there is no burst to catch up.
-template <typename Clock = SystemClock>
+template <typename Clock = LoopClock>
 class Pacer {
  public:
   Pacer(double rate_hz, Clock clock = {}) noexcept : clock_(clock), rate_(rate_hz), start_(clock_.now()) {}

@@ -20,7 +20,6 @@
 #include "punctura_runtime/os/os.hpp"
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
-#include "punctura_runtime/ring/triple_buffer.hpp"
 
 namespace punctura {
 

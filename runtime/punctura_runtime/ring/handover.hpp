@@ -1,7 +1,9 @@
-// Replaces an object of a running thread, without a lock.
+// From one thread to one other, without a lock: a new object, or the newest value.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 
 namespace punctura {
@@ -37,6 +39,32 @@ class Handover {
 
  private:
   std::atomic<T*> offered_{nullptr}, retired_{nullptr};
+};
+
+/// One copy is written, one is read, one is between them. Neither side ever waits or sees half a value.
+template <typename T>
+class TripleBuffer {
+ public:
+  explicit TripleBuffer(const T& first = T{}) : copies_{first, first, first} {}
+
+  /// Writer.
+  template <typename Fill>
+  void write(Fill&& fill) noexcept {
+    fill(copies_[back_]);
+    back_ = middle_.exchange(back_ | fresh, std::memory_order_acq_rel) & index;
+  }
+  /// Reader. Valid until the next read.
+  const T& read() noexcept {
+    if (middle_.load(std::memory_order_relaxed) & fresh)
+      front_ = middle_.exchange(front_, std::memory_order_acq_rel) & index;
+    return copies_[front_];
+  }
+
+ private:
+  static constexpr std::uint8_t fresh = 4, index = 3;
+  std::array<T, 3> copies_;
+  std::uint8_t back_ = 0, front_ = 1;
+  std::atomic<std::uint8_t> middle_{2};
 };
 
 }  // namespace punctura

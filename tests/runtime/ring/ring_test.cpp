@@ -5,7 +5,6 @@
 
 #include "punctura_runtime/ring/handover.hpp"
 #include "punctura_runtime/ring/snapshot_ring.hpp"
-#include "punctura_runtime/ring/triple_buffer.hpp"
 
 using namespace punctura;
 

@@ -8,7 +8,6 @@
 #include <limits>
 #include <string_view>
 
-#include "punctura/lab/trace/live_line.hpp"
 #include "punctura/lab/trace/live_puncture.hpp"
 #include "punctura/model/field.hpp"
 #include "punctura/state/archive.hpp"

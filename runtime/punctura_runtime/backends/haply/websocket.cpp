@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdlib>
 
 #include "punctura_runtime/os/os.hpp"
 
@@ -178,6 +180,37 @@ std::string http_get(const Url& url, std::string_view path, std::int64_t deadlin
     return {};
   }
   return answer.substr(end + 4);
+}
+
+std::optional<Url> parse_url(std::string_view text) {
+  constexpr std::string_view scheme = "ws://";
+  if (!text.starts_with(scheme)) return {};
+  text.remove_prefix(scheme.size());
+  if (text.ends_with('/')) text.remove_suffix(1);
+
+  Url url;
+  std::size_t end = text.find(':');
+  if (text.starts_with('[')) {  // an IPv6 address has colons of its own
+    const std::size_t bracket = text.find(']');
+    if (bracket == std::string_view::npos) return {};
+    url.host = text.substr(1, bracket - 1);
+    end = bracket + 1 == text.size() ? std::string_view::npos : bracket + 1;
+  } else {
+    url.host = text.substr(0, end);
+  }
+  constexpr std::string_view known = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-:%_";
+  if (url.host.empty() || url.host.find_first_not_of(known) != std::string::npos) return {};
+  if (end == std::string_view::npos) return url;
+
+  const std::string_view port = text.substr(end);
+  const auto [at, error] = std::from_chars(port.data() + 1, port.data() + port.size(), url.port);
+  if (!port.starts_with(':') || error != std::errc() || at != port.data() + port.size() || url.port == 0) return {};
+  return url;
+}
+
+std::string default_url() {
+  const char* wanted = std::getenv("PUNCTURA_INVERSE_URL");
+  return wanted && *wanted ? wanted : "ws://localhost:10001";
 }
 
 }  // namespace punctura::haply

@@ -2,16 +2,32 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "punctura_runtime/backends/haply/frames.hpp"
-#include "punctura_runtime/backends/haply/url.hpp"
 #include "punctura_runtime/os/socket.hpp"
 
 namespace punctura::haply {
+
+struct Url {
+  std::string host;
+  std::uint16_t port = 10001;
+
+  std::string text() const { return "ws://" + authority(); }
+  std::string authority() const {
+    return (host.find(':') == std::string::npos ? host : "[" + host + "]") + ":" + std::to_string(port);
+  }
+};
+
+/// "ws://host", "ws://host:port", "ws://[::1]:port", with or without a slash at the end. Nothing for any other text.
+std::optional<Url> parse_url(std::string_view text);
+
+/// The environment variable PUNCTURA_INVERSE_URL, or the service's default, ws://localhost:10001.
+std::string default_url();
 
 /// RFC 6455 asks for a random key, so that no cache between client and server answers for the server. Between two
 /// programs on one machine there is no cache. So the key is the RFC's example, and the answer to it is known: no SHA-1,
