@@ -134,33 +134,33 @@ class Rows {
   std::size_t stride_;
 };
 
-// Laws that keep the arguments of their constructor.
-struct ThinArguments {
+/// The arguments of a law; the thin law reads two, the thick one has no tissue.
+struct LawArguments {
   Needle needle;
   Membrane membrane;
-  ThinLaw law() const { return {needle, membrane}; }
-};
-struct ThickArguments {
-  Needle needle;
-  Membrane membrane;
+  Tissue tissue{};
   double obliquity = 0;
-  ThickLaw law() const { return {needle, membrane, obliquity}; }
 };
-struct TissueArguments {
-  Needle needle;
-  Membrane membrane;
-  Tissue tissue;
-  double obliquity = 0;
-  TissueLaw law() const { return {needle, membrane, tissue, std::cos(obliquity)}; }
+
+/// A law that keeps the arguments of its constructor.
+template <typename L>
+struct LawOf : L, LawArguments {
+  using Law = L;
+  explicit LawOf(const LawArguments& a) : L(made(a)), LawArguments(a) {}
+
+ private:
+  static L made(const LawArguments& a) {
+    if constexpr (std::is_same_v<L, ThinLaw>)
+      return {a.needle, a.membrane};
+    else if constexpr (std::is_same_v<L, ThickLaw>)
+      return {a.needle, a.membrane, a.obliquity};
+    else
+      return {a.needle, a.membrane, a.tissue, std::cos(a.obliquity)};
+  }
 };
-template <typename Arguments>
-struct LawOf : decltype(std::declval<Arguments>().law()), Arguments {
-  using Law = decltype(std::declval<Arguments>().law());
-  explicit LawOf(const Arguments& a) : Law(a.law()), Arguments(a) {}
-};
-using GivenThinLaw = LawOf<ThinArguments>;
-using GivenThickLaw = LawOf<ThickArguments>;
-using GivenTissueLaw = LawOf<TissueArguments>;
+using GivenThinLaw = LawOf<ThinLaw>;
+using GivenThickLaw = LawOf<ThickLaw>;
+using GivenTissueLaw = LawOf<TissueLaw>;
 struct GivenProfileLaw : ProfileLaw {
   using Law = ProfileLaw;
   std::vector<double> depth, lower, upper;

@@ -32,9 +32,7 @@ Object<"list[BackendState]"> enumerated() {
 std::shared_ptr<Device> opened(const std::string& backend, double rate, const std::string& device,
                                const std::string& library, int priority, int processor) {
   const WithoutLock release;
-  OpenOptions options{rate, device, library};
-  options.realtime = {.priority = priority, .processor = processor};
-  return open_device(backend, options);
+  return open_device(backend, {rate, device, library, {.priority = priority, .processor = processor}});
 }
 
 }  // namespace
@@ -65,11 +63,7 @@ void bind_thumb(nb::module_& m) {
           "__init__",
           [](ThumbLoop* self, std::shared_ptr<Device> device, const Triple& direction, const GateLimits& gate,
              const ForceLimits& limits) {
-            ThumbSettings settings;
-            settings.direction = unit(direction, "direction");
-            settings.gate = gate;
-            settings.limits = limits;
-            new (self) ThumbLoop(std::move(device), settings);
+            new (self) ThumbLoop(std::move(device), {unit(direction, "direction"), gate, limits});
           },
           nb::arg("device"), nb::arg("direction") = Triple{0, -1, 0}, nb::arg("gate") = GateLimits{},
           nb::arg("limits") = ForceLimits{},

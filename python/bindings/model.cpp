@@ -67,18 +67,12 @@ void suggest_radians(std::vector<Problem>& problems) {
   }
 }
 
-constexpr std::tuple thin_rows{row("needle", &ThinArguments::needle), row("membrane", &ThinArguments::membrane)};
-constexpr std::tuple thick_rows{
-    row("needle", &ThickArguments::needle),
-    row("membrane", &ThickArguments::membrane),
-    row("obliquity", &ThickArguments::obliquity, "beta, rad."),
-};
-constexpr std::tuple tissue_law_rows{
-    row("needle", &TissueArguments::needle),
-    row("membrane", &TissueArguments::membrane),
-    row("tissue", &TissueArguments::tissue),
-    row("obliquity", &TissueArguments::obliquity, "beta, rad."),
-};
+constexpr auto needle_row = row("needle", &LawArguments::needle);
+constexpr auto membrane_row = row("membrane", &LawArguments::membrane);
+constexpr auto obliquity_row = row("obliquity", &LawArguments::obliquity, "beta, rad.");
+constexpr std::tuple thin_rows{needle_row, membrane_row};
+constexpr std::tuple thick_rows{needle_row, membrane_row, obliquity_row};
+constexpr std::tuple tissue_law_rows{needle_row, membrane_row, row("tissue", &LawArguments::tissue), obliquity_row};
 
 /// Defines the class of a law. needed: see ClassTexts.
 template <const auto& rows, typename L>
@@ -86,10 +80,9 @@ auto bind_law(nb::module_& m, const char* name, const char* doc, int needed = 2,
               const char* raises = "Raises ConfigurationError with all problems.") {
   const auto check_all = [](const auto& made, std::vector<Problem>& problems) {
     problems = problems_of(made.needle, made.membrane);
-    if constexpr (requires { made.obliquity; }) check_field(obliquity_field, made.obliquity, "", problems);
-    if constexpr (requires { made.tissue; })
-      if (check(made.tissue, "tissue", problems) && problems.empty())
-        check_curve(made.needle, made.membrane, made.tissue, "tissue", problems);
+    check_field(obliquity_field, made.obliquity, "", problems);
+    if (check(made.tissue, "tissue", problems) && problems.empty())
+      check_curve(made.needle, made.membrane, made.tissue, "tissue", problems);
   };
   auto law = def_struct<rows, L>(m, {.name = name, .doc = doc, .raises = raises, .needed = needed}, check_all);
   def_bounds(law);

@@ -53,10 +53,8 @@ void make_replay(ReplayDevice* self, const ArrayLike& positions, const ArrayLike
     samples[k].motor_temperature = temperature.empty() ? 0 : temperature[k];
   }
   recorded.rate = rate;
-  ReplayOptions options;
-  options.real_time = real_time;
-  options.realtime = {.priority = priority, .processor = processor};
-  new (self) ReplayDevice(std::move(samples), std::move(recorded), options);
+  new (self) ReplayDevice(std::move(samples), std::move(recorded),
+                          {real_time, {.priority = priority, .processor = processor}});
 }
 
 void make_fed(FedDevice* self, double rate, DeviceInfo info, bool real_time) {

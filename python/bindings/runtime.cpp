@@ -107,17 +107,10 @@ void bind_runtime(nb::module_& m) {
           "__init__",
           [](SimulatedDevice* self, const AnyMotion& motion, const DeviceDynamics& plant, const Hand& hand, double rate,
              std::uint64_t seed, bool real_time, std::uint64_t ticks, const Triple& axis, int priority, int processor) {
-            SimulatedOptions made;
-            made.dynamics = plant;
-            made.hand = hand;
             check_rate(rate);
-            made.rate = rate;
-            made.seed = seed;
-            made.real_time = real_time;
-            made.ticks = ticks;
-            made.axis = to_array(unit(axis, "axis"));
-            made.realtime = {.priority = priority, .processor = processor};
-            new (self) SimulatedDevice(laid_out(motion, seed), made);
+            const os::RealtimeSettings realtime{.priority = priority, .processor = processor};
+            new (self) SimulatedDevice(laid_out(motion, seed), {plant, hand, rate, seed, real_time, ticks,
+                                                                to_array(unit(axis, "axis")), realtime});
           },
           nb::arg("motion"), nb::arg("plant") = DeviceDynamics{}, nb::arg("hand") = Hand{},
           nb::arg("rate") = options.rate, nb::arg("seed") = 0, nb::arg("real_time") = true, nb::arg("ticks") = 0,
@@ -170,12 +163,9 @@ void bind_runtime(nb::module_& m) {
           [](ServoLoop* self, std::shared_ptr<Device> device, const Scene& scene, const GateLimits& gate,
              const ForceLimits& limits, const Placement& placement, std::shared_ptr<ThumbLoop> thumb,
              const std::vector<AnyRival>& rivals) {
-            LoopSettings settings;
-            settings.model = StepMaker::with_rivals(rivals);
+            LoopSettings settings{gate, limits, placement};
             settings.thumb = std::move(thumb);
-            settings.gate = gate;
-            settings.limits = limits;
-            settings.placement = placement;
+            settings.model = StepMaker::with_rivals(rivals);
             new (self) ServoLoop(std::move(device), scene, settings);
           },
           nb::arg("device"), nb::arg("scene"), nb::arg("gate") = GateLimits{}, nb::arg("limits") = ForceLimits{},

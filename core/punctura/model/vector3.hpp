@@ -99,12 +99,7 @@ class Vector3 {
     return largest * (*this * (1 / largest)).norm();
   }
 
-  /// The vector scaled to length 1. A vector of length 0 stays unchanged.
-  constexpr Vector3 normalized() const noexcept {
-    const Scalar squared = squaredNorm();
-    return squared > 0 ? *this / lane::sqrt(squared) : *this;
-  }
-  /// The same as normalized(), also if squares overflow or underflow.
+  /// The vector scaled to length 1, also if squares overflow or underflow. A vector of length 0 stays unchanged.
   constexpr Vector3 stableNormalized() const noexcept {
     const Scalar largest = maxAbs();
     if (!(largest > 0)) return *this;

@@ -116,11 +116,6 @@ inline constexpr std::tuple tick_table{
 };
 // clang-format on
 
-/// The page gets numbers as float32, so a wide integer would lose digits there.
-template <typename Value>
-inline constexpr bool fits_the_page =
-    std::is_floating_point_v<Value> || std::is_enum_v<Value> || std::is_same_v<Value, std::array<double, 3>>;
-
 /// Calls visit(field, index) for each field of a table, in its order.
 template <typename Table, typename Visit>
 constexpr void for_each_field(const Table& table, Visit&& visit) {

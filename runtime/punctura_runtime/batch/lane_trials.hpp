@@ -55,17 +55,22 @@ class LaneWall {
 };
 
 /// At most block_lanes trials, each in its lane.
-class LaneTrials : public LaneOwner {
+class LaneTrials {
  public:
   LaneTrials(const LaneTrials&) = delete;
-
   std::size_t size() const noexcept { return block_->trials; }
 
-  void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept override;
-  Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept override;
-  Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept override;
-  void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept override;
-  void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept override;
+  // For the lanes of the block.
+  /// Lane start + i of `lanes` lanes has entered a membrane with n.b = cosine[i], perhaps long ago.
+  void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept;
+  /// The line fit of a lane, for SceneBlock::fits_lines: its conditioned position, m.
+  Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept;
+  /// The direction of a lane's motion, for SceneBlock::from_motion.
+  Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept;
+  /// The lanes of `lanes` (bits, from `start`) have reached these depths (m) in a membrane that remembers.
+  void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept;
+  /// They have left it in front.
+  void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept;
 
  protected:
   /// What a lane has beside its numbers in the block.

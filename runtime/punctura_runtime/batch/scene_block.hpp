@@ -19,6 +19,8 @@ namespace punctura::batch {
 
 using LaneVectors = std::array<LaneNumbers, 3>;  ///< a Vector3 for each lane
 
+class LaneTrials;
+
 /// A membrane of each trial of a block.
 struct MembraneBlock {
   LineBlock band{};               ///< the pieces for the direction in which each lane entered
@@ -37,24 +39,6 @@ struct CouplingBlock {
 
 /// The ticks whose inputs are ready at once.
 inline constexpr std::size_t scene_ticks = 16;
-
-/// What the lanes of a block need from outside, seldom.
-class LaneOwner {
- public:
-  /// Lane start + i of `lanes` lanes has entered a membrane with n.b = cosine[i], perhaps long ago.
-  virtual void lay_out(std::size_t membrane, std::size_t start, std::size_t lanes, const double* cosine) noexcept = 0;
-  /// The line fit of a lane, for SceneBlock::fits_lines: its conditioned position, m.
-  virtual Vector3d fit(std::size_t lane, const Vector3d& measured) noexcept = 0;
-  /// The direction of a lane's motion, for SceneBlock::from_motion.
-  virtual Vector3d direction(std::size_t lane, const Vector3d& tip) noexcept = 0;
-  /// The lanes of `lanes` (bits, from `start`) have reached these depths (m) in a membrane that remembers.
-  virtual void advance(std::size_t membrane, std::size_t start, unsigned lanes, const double* depth) noexcept = 0;
-  /// They have left it in front.
-  virtual void leave(std::size_t membrane, std::size_t start, unsigned lanes) noexcept = 0;
-
- protected:
-  ~LaneOwner() = default;
-};
 
 /// What whole runs need from outside, and their results.
 class RunOwner {
@@ -107,7 +91,7 @@ struct SceneBlock {
   std::array<LaneVectors, scene_ticks> force;
   bool has_hand, keeps_force;
   bool fits_lines, from_motion;  ///< Conditioning::line_fit; Direction::motion
-  LaneOwner* owner;
+  LaneTrials* owner;             ///< what the lanes need from outside, seldom
 };
 
 /// Makes all ticks of a block, unless it is stopped.

@@ -12,6 +12,7 @@
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
 #include "punctura/signal/low_pass.hpp"
+#include "punctura_runtime/batch/lane_trials.hpp"
 #include "punctura_runtime/batch/present_pieces.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"
 #include "punctura_runtime/batch/simd.hpp"

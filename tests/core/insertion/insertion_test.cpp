@@ -55,7 +55,7 @@ TEST_CASE("with Direction::motion, b is the direction of the motion and the styl
   from_motion.direction = Direction::motion;
   auto insertion = build_insertion(from_motion);
   CHECK_FALSE(insertion.uses_axis());
-  const Vector3d way = Vector3d(1, -2, 0.5).normalized();
+  const Vector3d way = Vector3d(1, -2, 0.5).stableNormalized();
   for (int k = 0; k < 1600; ++k) insertion.step(Vector3d(0, 1e-3, 0) + 10e-3 / 1600.0 * k * way, Vector3d(0, 1, 0));
   CHECK(((*insertion.k06())[0].direction() - way).norm() < 1e-9);
   CHECK(insertion.force().norm() > 0.1);
@@ -65,7 +65,7 @@ TEST_CASE("a motion that grazes the membrane gives no force") {
   auto from_motion = scene({at_depth(0, 1e-3)});
   from_motion.direction = Direction::motion;
   auto insertion = build_insertion(from_motion);
-  const Vector3d way = Vector3d(1, -0.15, 0).normalized();  // 81.5 degrees
+  const Vector3d way = Vector3d(1, -0.15, 0).stableNormalized();  // 81.5 degrees
   for (int k = 0; k < 1600; ++k) {
     insertion.step(Vector3d(0, 1e-4, 0) + 10e-3 / 1600.0 * k * way, down);
     REQUIRE(insertion.force() == Vector3d::Zero());

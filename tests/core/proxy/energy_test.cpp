@@ -34,7 +34,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
     const LawCase c = random_law(noise, 1e-4);
     const ThickLaw law(c.needle, c.membrane);
     if ((law.constants().A_O < 0) != expelling) continue;
-    const Vector3d n = (axis + 0.5 * noise.uniform() * random_direction(noise)).normalized();
+    const Vector3d n = (axis + 0.5 * noise.uniform() * random_direction(noise)).stableNormalized();
     const double depth = 2e-3 * noise.uniform();
     sites.push_back({law, depth * axis, n});
     reach = std::max(reach, depth + law.constants().X + 2 * law.thickness());
@@ -43,7 +43,7 @@ Cycle random_cycle(Noise& noise, Solver solver, bool expelling) {
 
   auto path = random_motion(noise, 1500, reach, T);
   const Vector3d home = -0.5 * reach * axis;  // in front of all membranes at all angles
-  const Vector3d side = axis.cross(std::abs(axis.x()) < 0.5 ? Vector3d(1, 0, 0) : Vector3d(0, 1, 0)).normalized();
+  const Vector3d side = axis.cross(std::abs(axis.x()) < 0.5 ? Vector3d(1, 0, 0) : Vector3d(0, 1, 0)).stableNormalized();
   Cycle cycle;
   Vector3d p_prev = home;
   std::vector<Vector3d> q_prev(sites.size(), home);

@@ -158,7 +158,7 @@ void compare_in_space(Noise& noise, Seen& seen) {
   std::vector<SpaceParams<BasicThickLaw<Scalar>>> alone;
   const auto direction = [&](double spread) {
     const Vector3d v{between(noise, -spread, spread), -1, between(noise, -spread, spread)};
-    return v.normalized().template cast<Scalar>();
+    return v.stableNormalized().template cast<Scalar>();
   };
   for (std::size_t i = 0; i < 4; ++i) {
     point[i] = Vector3d{between(noise, -0.1, 0.1), 0, between(noise, -0.1, 0.1)}.cast<Scalar>();

@@ -73,7 +73,7 @@ void has_the_same_bits(const L& law, double reach) {
   for (Solver solver : {Solver::paper, Solver::exact}) {
     Proxy1d alone(law, Coupling{400, 1}, T, solver);
     Proxy1d among(AsMixed(law), Coupling{400, 1}, T, solver);
-    const Vector3d down(0, -1, 0), axis = Vector3d(0.2, -1, 0.1).normalized();
+    const Vector3d down(0, -1, 0), axis = Vector3d(0.2, -1, 0.1).stableNormalized();
     Proxy3d alone_3d(law, Vector3d(), down, Coupling{400, 1}, T, solver);
     Proxy3d among_3d(AsMixed(law), Vector3d(), down, Coupling{400, 1}, T, solver);
     std::size_t k = 0;

@@ -84,7 +84,7 @@ TEST_CASE("with the additions off, a proxy has the bits of K06's, also in space"
       const Coupling spring = random_coupling(noise);
       Proxy1d one(k06, spring, tissue_period, solver);
       Proxy1d other(law, spring, tissue_period, solver);
-      const Vector3d down(0, -1, 0), axis = Vector3d(0.2, -1, 0.1).normalized();
+      const Vector3d down(0, -1, 0), axis = Vector3d(0.2, -1, 0.1).stableNormalized();
       Proxy3d one_3d(k06, Vector3d(), down, spring, tissue_period, solver);
       Proxy3d other_3d(law, Vector3d(), down, spring, tissue_period, solver);
       for (const double p : random_motion(noise, 1500, k06.constants().X + k06.thickness(), tissue_period)) {

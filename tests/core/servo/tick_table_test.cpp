@@ -23,7 +23,9 @@ TEST_CASE("every field has a name and a column of its own, a description, and th
     const bool is_vector = std::is_same_v<typename F::Value, std::array<double, 3>>;
     CHECK((column.find("{a}") != std::string::npos) == is_vector);
     CHECK((column.find("{i}") != std::string::npos) == F::per_membrane);
-    if (field.use & use_page) CHECK(fits_the_page<typename F::Value>);
+    // The page gets numbers as float32: a wide integer would lose digits.
+    if (field.use & use_page)
+      CHECK((std::is_floating_point_v<typename F::Value> || std::is_enum_v<typename F::Value> || is_vector));
   });
   CHECK(names.size() == std::tuple_size_v<decltype(experiment_table)>);
 }

@@ -16,7 +16,7 @@ Vector3d oracle(const std::vector<Vector3d>& history, double T) {
   std::size_t by_path = now;
   for (double path = 0; by_path > 0 && path < 2e-4; --by_path) path += (history[by_path] - history[by_path - 1]).norm();
   const Vector3d moved = history[now] - history[std::min(by_time, by_path)];
-  return moved.norm() > 0 ? Vector3d(moved.normalized()) : Vector3d::Zero();
+  return moved.norm() > 0 ? Vector3d(moved.stableNormalized()) : Vector3d::Zero();
 }
 }  // namespace
 

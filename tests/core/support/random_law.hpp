@@ -13,7 +13,7 @@ inline double between(Noise& noise, double low, double high) { return low + (hig
 inline double between_log(Noise& noise, double low, double high) { return low * std::pow(high / low, noise.uniform()); }
 
 inline Vector3d random_direction(Noise& noise) {
-  return Vector3d(noise.normal(), noise.normal(), noise.normal()).normalized();
+  return Vector3d(noise.normal(), noise.normal(), noise.normal()).stableNormalized();
 }
 
 struct LawCase {

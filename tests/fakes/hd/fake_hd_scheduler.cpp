@@ -17,7 +17,8 @@ using punctura::to_array;
 std::array<double, 16> pose(const fake_hd_settings& s, const std::array<double, 3>& position) {
   using punctura::Vector3d;
   const Vector3d z = -Vector3d(s.axis[0], s.axis[1], s.axis[2]);
-  const Vector3d x = Vector3d(std::abs(z.x()) < 0.9 ? 1 : 0, std::abs(z.x()) < 0.9 ? 0 : 1, 0).cross(z).normalized();
+  const Vector3d x =
+      Vector3d(std::abs(z.x()) < 0.9 ? 1 : 0, std::abs(z.x()) < 0.9 ? 0 : 1, 0).cross(z).stableNormalized();
   std::array<double, 16> m{};
   const std::array<Vector3d, 3> columns{x, z.cross(x), z};
   for (std::size_t c = 0; c < 3; ++c)

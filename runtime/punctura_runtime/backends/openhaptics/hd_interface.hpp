@@ -30,28 +30,14 @@ struct ErrorInfo {
 };
 static_assert(sizeof(ErrorInfo) == 12);
 
+/// Those that the code tells apart; hd_errors.cpp has all.
 enum Error : std::uint32_t {
   success = 0x000,
-  invalid_enum = 0x100,
-  invalid_value = 0x101,
-  invalid_operation = 0x102,
-  invalid_input_type = 0x103,
   bad_handle = 0x104,
   warm_motors = 0x200,
-  exceeded_max_force = 0x201,
-  exceeded_max_force_impulse = 0x202,
   exceeded_max_velocity = 0x203,
-  force_error = 0x204,
   device_fault = 0x300,
   device_already_initiated = 0x301,
-  comm_error = 0x302,
-  comm_config_error = 0x303,
-  timer_error = 0x304,
-  illegal_begin = 0x400,
-  illegal_end = 0x401,
-  frame_error = 0x402,
-  invalid_priority = 0x500,
-  scheduler_full = 0x501,
   invalid_license = 0x600,
 };
 
