@@ -56,7 +56,7 @@ struct BatchFinder : EventFinder, OneThread {
   }
   void describe(auto& parameters) const {
     EventFinder::describe(parameters);
-    parameters.numbers(rate);
+    parameters.fields(rate);
   }
   nb::tuple arguments() const {
     return nb::make_tuple(scene(), rate, waits_for_scene() ? nb::cast(newest_scene()) : nb::none());

@@ -93,10 +93,10 @@ class ConditionedProxies {
   }
 
   static void archive(auto& self, auto& state) {
-    Conditioner::archive(self.conditioner_, state);
-    if (self.from_motion_) Tracker::archive(*self.from_motion_, state);
-    each(self.proxies_, [&](auto& proxy) { std::remove_cvref_t<decltype(proxy)>::archive(proxy, state); });
-    state.numbers(self.tip_, self.force_);
+    state.fields(self.conditioner_);
+    if (self.from_motion_) state.fields(*self.from_motion_);
+    each(self.proxies_, [&](auto& proxy) { state.fields(proxy); });
+    state.fields(self.tip_, self.force_);
   }
   void describe(auto& parameters) const {
     conditioner_.describe(parameters);

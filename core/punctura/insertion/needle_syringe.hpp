@@ -48,14 +48,14 @@ class NeedleSyringe {
     return plunger.step(thumb, opening.outlet());
   }
 
-  static void archive(auto& self, auto& state) { BasicPlunger<Scalar>::archive(self.plunger, state); }
+  static void archive(auto& self, auto& state) { state.fields(self.plunger); }
   void describe(auto& parameters) const {
     plunger.describe(parameters);
-    parameters.numbers(opening_);
+    parameters.fields(opening_);
     for (const auto& layer : layers_) {
       parameters.index(layer.membrane, 0);
-      parameters.numbers(layer.thickness, layer.inside.resistance, layer.inside.pressure, layer.behind.resistance,
-                         layer.behind.pressure);
+      parameters.fields(layer.thickness, layer.inside.resistance, layer.inside.pressure, layer.behind.resistance,
+                        layer.behind.pressure);
     }
   }
 

@@ -28,7 +28,7 @@ struct ManyPieces {
   constexpr ManyPieces() noexcept { breaks.fill(Scalar(std::numeric_limits<Lane<Scalar>>::infinity())); }
 
   void describe(auto& parameters) const {
-    for (std::size_t i = 0; i + 1 < count; ++i) parameters.numbers(breaks[i]);
+    for (std::size_t i = 0; i + 1 < count; ++i) parameters.fields(breaks[i]);
     for (std::size_t i = 0; i < count; ++i) pieces[i].describe(parameters);
   }
 

@@ -58,7 +58,7 @@ struct BandPiece {
     return {other, lower.from(other - origin), upper.from(other - origin)};
   }
   void describe(auto& parameters) const {
-    parameters.numbers(origin, lower.c0, lower.c1, lower.c2, upper.c0, upper.c1, upper.c2);
+    parameters.fields(origin, lower.c0, lower.c1, lower.c2, upper.c0, upper.c1, upper.c2);
   }
 };
 
@@ -86,7 +86,7 @@ struct PiecewiseBand {
   std::array<Piece, N> pieces{};
 
   void describe(auto& parameters) const {
-    for (const Scalar at : breaks) parameters.numbers(at);
+    for (const Scalar at : breaks) parameters.fields(at);
     for (const Piece& piece : pieces) piece.describe(parameters);
   }
 

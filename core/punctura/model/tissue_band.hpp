@@ -134,8 +134,8 @@ struct TissueBand : ManyPieces<Scalar_, N> {
 
   void describe(auto& parameters) const {
     First::describe(parameters);
-    for (std::size_t i = 0; i < First::count; ++i) parameters.numbers(cutting[i].c0, cutting[i].c1);
-    parameters.numbers(kept);
+    for (std::size_t i = 0; i < First::count; ++i) parameters.fields(cutting[i].c0, cutting[i].c1);
+    parameters.fields(kept);
   }
 
  private:

@@ -21,7 +21,7 @@ struct BasicHole {
   Scalar made{};  ///< the deepest point that it had reached when it last left, m
 
   static void archive(auto& self, auto& state) {
-    state.numbers(self.cut, self.made);
+    state.fields(self.cut, self.made);
     state.require(self.made >= 0 && self.made <= self.cut);
   }
 };

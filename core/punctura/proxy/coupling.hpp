@@ -58,7 +58,7 @@ struct SampledCoupling {
         B_over_D(B / (K * T + B)) {}
 
   constexpr Scalar period() const noexcept { return T; }  ///< s, for a law that feels time
-  void describe(auto& parameters) const { parameters.numbers(K, B, T); }
+  void describe(auto& parameters) const { parameters.fields(K, B, T); }
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38).
   template <typename Vector>

@@ -32,7 +32,7 @@ struct SpaceParams {
 
   void describe(auto& parameters) const {
     describe_law(law, law.pieces(typename L::Scalar(1)), parameters);
-    parameters.numbers(a, n);
+    parameters.fields(a, n);
     coupling.describe(parameters);
   }
 };
@@ -59,11 +59,9 @@ struct SpaceState {
 
   /// Reads or writes the state without the pieces. lay_out() computes them.
   static void archive(auto& self, auto& state) {
-    state.flag(self.started);
+    state.fields(self.started);
     state.choice(self.phase, Phase::barred);
-    state.numbers(self.p, self.e, self.f, self.b, self.cos_beta);
-    state.memory(self.law);
-    state.memory(self.coupling);
+    state.fields(self.p, self.e, self.f, self.b, self.cos_beta, self.law, self.coupling);
     state.require(is_place(self.p));
     if (inside(self.phase))
       state.require(self.started && is_unit(self.b) && self.cos_beta >= grazing_cosine<Scalar> &&
@@ -85,8 +83,8 @@ struct SpaceTick {
   PhaseOf<Scalar> phase;
 
   static void archive(auto& self, auto& state) {
-    state.numbers(self.force, self.proxy, self.direction, self.axial_force, self.depth, self.band.lower,
-                  self.band.upper);
+    state.fields(self.force, self.proxy, self.direction, self.axial_force, self.depth, self.band.lower,
+                 self.band.upper);
     state.choice(self.phase, Phase::barred);
   }
 };

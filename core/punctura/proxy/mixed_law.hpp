@@ -92,7 +92,7 @@ class MixedLaw {
     static void archive_as(auto& self, auto& state) {
       if constexpr (std::remove_reference_t<decltype(state)>::reading)
         if (self.index() != i) self.template emplace<i>();
-      state.memory(*std::get_if<i>(&self));
+      state.fields(*std::get_if<i>(&self));
     }
   };
 

@@ -42,11 +42,9 @@ struct LineState {
 
   /// Reads or writes the state without the pieces. lay_out() computes them.
   static void archive(auto& self, auto& state) {
-    state.flag(self.started);
+    state.fields(self.started);
     state.choice(self.phase, Phase::sliding_out);
-    state.numbers(self.p, self.e, self.f);
-    state.memory(self.law);
-    state.memory(self.coupling);
+    state.fields(self.p, self.e, self.f, self.law, self.coupling);
     state.require(inside(self.phase) && is_place(self.p));
   }
 };

@@ -53,8 +53,7 @@ class Proxy1d {
   constexpr const State& state() const noexcept { return state_; }
 
   static void archive(auto& self, auto& state) {
-    State::archive(self.state_, state);
-    state.numbers(self.depth_, self.band_.lower, self.band_.upper);
+    state.fields(self.state_, self.depth_, self.band_.lower, self.band_.upper);
     if constexpr (std::remove_reference_t<decltype(state)>::reading) lay_out(self.params_, self.state_);
   }
   void describe(auto& parameters) const {

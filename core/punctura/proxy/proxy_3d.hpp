@@ -81,7 +81,7 @@ class Proxy3d {
     if constexpr (reading)
       if (self.is_inside()) lay_out(self.params_, self.state_);
     SpaceTick<Scalar> last = self.tick();
-    state.numbers(last.axial_force, last.depth, last.band.lower, last.band.upper);
+    state.fields(last.axial_force, last.depth, last.band.lower, last.band.upper);
     if constexpr (reading) self.keep(last);
   }
   void describe(auto& parameters) const {

@@ -40,9 +40,7 @@ class RelaxingCoupling {
   struct Memory {
     std::array<Vector, max_branches> force{};
 
-    static void archive(auto& self, auto& state) {
-      for (auto& f : self.force) state.numbers(f);
-    }
+    static void archive(auto& self, auto& state) { state.fields(self.force); }
     template <typename M>
       requires(!std::same_as<M, bool>)
     friend Memory select(const M& mask, const Memory& a, const Memory& b) noexcept {
@@ -95,7 +93,7 @@ class RelaxingCoupling {
   constexpr Scalar period() const noexcept { return spring_.period(); }  ///< s
   void describe(auto& parameters) const {
     spring_.describe(parameters);
-    for (const Branch& branch : branches_) parameters.numbers(branch.a, branch.k);
+    for (const Branch& branch : branches_) parameters.fields(branch.a, branch.k);
   }
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38), and what is left of the branches' forces.

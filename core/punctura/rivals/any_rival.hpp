@@ -74,7 +74,7 @@ class AnyRival {
   void describe(auto& parameters) const {
     parameters.index(kind.index(), 0);
     visit([&](const auto& run) {
-      for (const auto& number : run.rival.numbers()) parameters.numbers(run.rival.*number.value);
+      for (const auto& number : run.rival.numbers()) parameters.fields(run.rival.*number.value);
     });
   }
 };

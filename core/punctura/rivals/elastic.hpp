@@ -29,7 +29,7 @@ struct DryFriction {
     return held;
   }
 
-  static void archive(auto& self, auto& state) { state.numbers(self.held); }
+  static void archive(auto& self, auto& state) { state.fields(self.held); }
 };
 
 /// The state of a layer that resists by elasticity until it is punctured, and by friction from then on.
@@ -37,10 +37,7 @@ struct PuncturedState {
   bool punctured = false;
   DryFriction friction{};
 
-  static void archive(auto& self, auto& state) {
-    state.flag(self.punctured);
-    DryFriction::archive(self.friction, state);
-  }
+  static void archive(auto& self, auto& state) { state.fields(self.punctured, self.friction); }
 };
 
 /// The numbers behind the puncture. Okamura et al. 2004 found friction in proportion to the inserted length. The
@@ -193,7 +190,7 @@ struct Gordon : BehindPuncture {
 
     static void archive(auto& self, auto& state) {
       PuncturedState::archive(self, state);
-      state.numbers(self.peak, self.deepest);
+      state.fields(self.peak, self.deepest);
     }
   };
 

@@ -33,7 +33,7 @@ struct Dahl {
   struct State {
     double depth = 0, force = 0;  ///< m, N
 
-    static void archive(auto& self, auto& state) { state.numbers(self.depth, self.force); }
+    static void archive(auto& self, auto& state) { state.fields(self.depth, self.force); }
   };
 
   double resistance(State& state, double depth, double velocity, double) const noexcept {
@@ -69,7 +69,7 @@ struct StickSlip {
   struct State {
     double anchor = 0;  ///< m
 
-    static void archive(auto& self, auto& state) { state.numbers(self.anchor); }
+    static void archive(auto& self, auto& state) { state.fields(self.anchor); }
   };
 
   double resistance(State& state, double depth, double, double) const noexcept {

@@ -56,9 +56,7 @@ struct MahvashDupont {
     DryFriction friction{};
 
     static void archive(auto& self, auto& state) {
-      state.flag(self.punctured);
-      state.numbers(self.slow, self.relaxing, self.depth, self.energy);
-      DryFriction::archive(self.friction, state);
+      state.fields(self.punctured, self.slow, self.relaxing, self.depth, self.energy, self.friction);
     }
   };
 

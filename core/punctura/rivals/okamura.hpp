@@ -45,11 +45,7 @@ struct Okamura {
     double deepest = 0;  ///< m
     DryFriction friction{};
 
-    static void archive(auto& self, auto& state) {
-      state.flag(self.punctured);
-      state.numbers(self.deepest);
-      DryFriction::archive(self.friction, state);
-    }
+    static void archive(auto& self, auto& state) { state.fields(self.punctured, self.deepest, self.friction); }
   };
 
   double load(const State&, double depth) const noexcept { return depth; }

@@ -76,17 +76,15 @@ class RivalProxy {
   }
 
   static void archive(auto& self, auto& state) {
-    AnyRival::archive(self.rival_, state);
-    state.flag(self.state_.started);
+    state.fields(self.rival_, self.state_.started);
     state.choice(self.state_.phase, Phase::barred);
-    state.numbers(self.state_.p, self.state_.b, self.state_.cos_beta);
-    SpaceTick<double>::archive(self.tick_, state);
+    state.fields(self.state_.p, self.state_.b, self.state_.cos_beta, self.tick_);
     if (inside(self.state_.phase))
       state.require(self.state_.started && is_unit(self.state_.b) && self.state_.cos_beta >= grazing_cosine<double>);
   }
   void describe(auto& parameters) const {
     rival_.describe(parameters);
-    parameters.numbers(a_, n_, period_);
+    parameters.fields(a_, n_, period_);
   }
 
   const SpaceTick<double>& tick() const noexcept { return tick_; }  ///< its band is the force on both edges

@@ -56,10 +56,10 @@ class BasicForceBudget {
   }
 
   static void archive(auto& self, auto& state) {
-    state.numbers(self.spent_);
+    state.fields(self.spent_);
     state.require(self.spent_ >= 0);
   }
-  void describe(auto& parameters) const { parameters.numbers(depth_, rate_); }
+  void describe(auto& parameters) const { parameters.fields(depth_, rate_); }
 
  private:
   /// The upper bound of spent_. With it, the budget has room again after a rest of `window` at the latest.

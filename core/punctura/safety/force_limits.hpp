@@ -157,17 +157,15 @@ class BasicForceLimiter {
 
   static void archive(auto& self, auto& state) {
     auto& own = self.state;
-    BasicForceBudget<Scalar>::archive(self.budget_, state);
-    state.numbers(own.gain, own.cool, self.ceiling_, own.held_square);
+    state.fields(self.budget_, own.gain, own.cool, self.ceiling_, own.held_square);
     state.require(own.gain >= 0 && own.gain <= 1 && own.cool >= 0 && own.cool <= 1 && own.held_square >= 0);
     state.choice(self.limit_, Limit::temperature);
-    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
-    for (auto* counter : {&own.counters.peak, &own.counters.continuous, &own.counters.temperature, &own.counters.ramp})
-      state.index(*counter, any);
+    auto& acted = own.counters;
+    state.fields(acted.peak, acted.continuous, acted.temperature, acted.ramp);
   }
   void describe(auto& parameters) const {
     budget_.describe(parameters);
-    parameters.numbers(max_force_, warm_motor_, period_, steady_, hold_, ramp_step_);
+    parameters.fields(max_force_, warm_motor_, period_, steady_, hold_, ramp_step_);
   }
 
  private:

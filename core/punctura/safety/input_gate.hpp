@@ -88,14 +88,12 @@ class BasicInputGate {
   void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.state.started);
-    state.numbers(self.state.time, self.state.fresh_time, self.state.position);
-    state.index(self.state.sequence, std::numeric_limits<std::uint64_t>::max());
+    auto& own = self.state;
+    state.fields(own.started, own.time, own.fresh_time, own.position, own.sequence);
   }
   void describe(auto& parameters) const {
-    parameters.numbers(limits_.max_speed, limits_.stale, limits_.deadline, limits_.axis_tolerance, period_);
-    parameters.index(limits_.dead_man, 0);
-    parameters.flag(axis_is_used_);
+    const GateLimits& l = limits_;
+    parameters.fields(l.max_speed, l.stale, l.deadline, l.axis_tolerance, period_, l.dead_man, axis_is_used_);
   }
 
  private:

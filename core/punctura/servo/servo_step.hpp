@@ -161,17 +161,15 @@ class ServoGuard {
   }
 
   static void archive(auto& self, auto& state) {
-    if (self.syringe_) Syringe::archive(*self.syringe_, state);
-    BasicInputGate<Scalar>::archive(self.gate_, state);
-    BasicForceLimiter<Scalar>::archive(self.limiter_, state);
+    if (self.syringe_) state.fields(*self.syringe_);
+    state.fields(self.gate_, self.limiter_);
     state.choice(self.state_, ServoState::faulted);
     state.choice(self.fault_, Fault::thumb);
     state.require((self.state_ == ServoState::faulted) == (self.fault_ != Fault::none));
-    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
-    state.index(self.commands_, std::numeric_limits<std::uint32_t>::max());
+    state.fields(self.tick_, self.commands_);
     archive_or_nan(self.time_, state);
-    state.numbers(self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_);
-    state.flag(self.fade_starts_);
+    state.fields(self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_,
+                 self.fade_starts_);
     state.require(self.fade_ >= 0 && self.fade_ <= 1);
   }
   void describe(auto& parameters) const {
@@ -179,7 +177,7 @@ class ServoGuard {
     if (syringe_) syringe_->describe(parameters);
     gate_.describe(parameters);
     limiter_.describe(parameters);
-    parameters.numbers(force_scale_, fade_step_);
+    parameters.fields(force_scale_, fade_step_);
   }
 
  private:

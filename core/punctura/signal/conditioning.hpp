@@ -78,15 +78,11 @@ class PositionConditioner {
   }
 
   static void archive(auto& self, auto& state) {
-    if (self.fits_) {
-      for (auto& line : self.lines_) Line::archive(line, state);
-      state.numbers(self.played_);
-    }
-    LowPass<Scalar, Vector>::archive(self.low_pass_, state);
+    if (self.fits_) state.fields(self.lines_, self.played_);
+    state.fields(self.low_pass_);
   }
   void describe(auto& parameters) const {
-    parameters.flag(fits_);
-    parameters.numbers(half_play_);
+    parameters.fields(fits_, half_play_);
     lines_[0].describe(parameters);
     low_pass_.describe(parameters);
   }

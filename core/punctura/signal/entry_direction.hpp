@@ -38,16 +38,10 @@ class EntryDirection {
   }
 
   static void archive(auto& self, auto& state) {
-    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
-    state.index(self.ticks_, any);
+    state.fields(self.ticks_);
     state.index(self.head_, self.path_.size());
     state.index(self.tail_, self.path_.size());
-    state.numbers(self.length_, self.last_);
-    for (auto& point : self.recent_) state.numbers(point);
-    for (auto& mark : self.path_) {
-      state.numbers(mark.point, mark.length);
-      state.index(mark.tick, any);
-    }
+    state.fields(self.length_, self.last_, self.recent_, self.path_);
   }
   void describe(auto& parameters) const { parameters.index(recent_.size(), 0); }
 
@@ -87,6 +81,7 @@ class EntryDirection {
     Vector point;
     Scalar length{};       ///< length of the path up to this point, m
     std::uint64_t tick{};  ///< the tick in which the tip was here
+    static void archive(auto& self, auto& state) { state.fields(self.point, self.length, self.tick); }
   };
   static constexpr std::size_t marks = 64;
 

@@ -70,13 +70,10 @@ class LineFit {
   static void archive(auto& self, auto& state) {
     state.flag(self.state.started);
     state.index(self.state.newest, self.size_);
-    state.numbers(self.state.origin, self.state.sums.zero, self.state.sums.one, self.state.sums.square);
-    for (auto& sample : self.state.ring) state.numbers(sample);
+    auto& sums = self.state.sums;
+    state.fields(self.state.origin, sums.zero, sums.one, sums.square, self.state.ring);
   }
-  void describe(auto& parameters) const {
-    parameters.numbers(tolerance_, most_square_, lead_);
-    parameters.index(size_, most_samples + 1);
-  }
+  void describe(auto& parameters) const { parameters.fields(tolerance_, most_square_, lead_, size_); }
 
   /// One tick. x: measured position, m. Returns the estimated position, m.
   Scalar step(Scalar x) noexcept {

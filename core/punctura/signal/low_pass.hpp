@@ -37,14 +37,8 @@ class LowPass {
   /// Forgets the samples of these lanes.
   void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
-  static void archive(auto& self, auto& state) {
-    state.flag(self.state.started);
-    state.numbers(self.state.y);
-  }
-  void describe(auto& parameters) const {
-    parameters.flag(off_);
-    parameters.numbers(gain_);
-  }
+  static void archive(auto& self, auto& state) { state.fields(self.state.started, self.state.y); }
+  void describe(auto& parameters) const { parameters.fields(off_, gain_); }
 
   Value step(const Value& x) noexcept {
     using namespace lane;

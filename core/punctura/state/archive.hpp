@@ -14,23 +14,48 @@
 #include <utility>
 #include <vector>
 
-#include "punctura/model/vector3.hpp"
-
 namespace punctura {
+
+/// What StateWriter and StateReader have in common.
+template <typename State>
+class StateFields {
+ public:
+  /// Numbers, vectors, truth values, whole numbers, objects with an archive, and arrays of all these, in this order.
+  void fields(auto&&... all) { (field(all), ...); }
+
+ private:
+  template <typename Field>
+  void field(Field& one) {
+    using Plain = std::remove_const_t<Field>;
+    State& state = static_cast<State&>(*this);
+    if constexpr (std::is_empty_v<Plain>)
+      return;  // no memory
+    else if constexpr (requires { Plain::archive(one, state); })
+      Plain::archive(one, state);
+    else if constexpr (std::is_same_v<Plain, bool>)
+      state.flag(one);
+    else if constexpr (std::unsigned_integral<Plain>)
+      state.index(one, std::numeric_limits<Plain>::max());
+    else if constexpr (std::floating_point<Plain>)
+      state.number(one);
+    else
+      for (auto& element : one) field(element);
+  }
+};
 
 /// Writes a state field by field, in the byte order of this machine.
 ///
 /// A class with state lists its fields in `static void archive(auto& self, auto& state)`, for writing and for
 /// reading. It lists its parameters in `void describe(auto& parameters) const`. The memory of your own law or
 /// coupling also needs an `archive`.
-class StateWriter {
+class StateWriter : public StateFields<StateWriter> {
  public:
   static constexpr bool reading = false;
   explicit StateWriter(std::vector<std::byte>& to) : to_(to) {}
 
-  template <typename... Numbers>
-  void numbers(const Numbers&... values) {
-    (put(values), ...);
+  template <std::floating_point Scalar>
+  void number(Scalar value) {
+    bytes(&value, sizeof value);
   }
   void flag(bool value) { index(value ? 1u : 0u, 2); }
   /// A whole number below `limit`.
@@ -44,21 +69,9 @@ class StateWriter {
   void choice(Enum value, Enum) {
     index(static_cast<std::uint64_t>(value), 0);
   }
-  template <typename Memory>
-  void memory(const Memory& value) {
-    if constexpr (!std::is_empty_v<Memory>) Memory::archive(value, *this);
-  }
   void require(bool) const noexcept {}
 
  private:
-  template <std::floating_point Scalar>
-  void put(Scalar value) {
-    bytes(&value, sizeof value);
-  }
-  template <typename Scalar>
-  void put(const Vector3<Scalar>& value) {
-    bytes(value.data(), 3 * sizeof(Scalar));
-  }
   void bytes(const void* from, std::size_t size) {
     const auto* data = static_cast<const std::byte*>(from);
     to_.insert(to_.end(), data, data + size);
@@ -68,7 +81,7 @@ class StateWriter {
 };
 
 /// Reads a state that StateWriter has written. If a value is impossible in a state, good() becomes false.
-class StateReader {
+class StateReader : public StateFields<StateReader> {
  public:
   static constexpr bool reading = true;
   explicit StateReader(std::span<const std::byte> from) noexcept : from_(from) {}
@@ -76,9 +89,10 @@ class StateReader {
   /// Whether all bytes were read, no byte was missing and all values are possible in a state.
   bool good() const noexcept { return good_ && from_.empty(); }
 
-  template <typename... Numbers>
-  void numbers(Numbers&... values) noexcept {
-    (take(values), ...);
+  template <std::floating_point Scalar>
+  void number(Scalar& value) noexcept {
+    bytes(&value, sizeof value);
+    require(std::isfinite(value));
   }
   void flag(bool& value) noexcept {
     std::uint64_t wide = 0;
@@ -98,23 +112,10 @@ class StateReader {
     index(wide, static_cast<std::uint64_t>(last) + 1);
     value = static_cast<Enum>(wide);
   }
-  template <typename Memory>
-  void memory(Memory& value) noexcept {
-    if constexpr (!std::is_empty_v<Memory>) Memory::archive(value, *this);
-  }
   /// Checks a condition that every state fulfils.
   void require(bool holds) noexcept { good_ = good_ && holds; }
 
  private:
-  template <std::floating_point Scalar>
-  void take(Scalar& value) noexcept {
-    bytes(&value, sizeof value);
-    require(std::isfinite(value));
-  }
-  template <typename Scalar>
-  void take(Vector3<Scalar>& value) noexcept {
-    for (Scalar& component : value) take(component);
-  }
   void bytes(void* to, std::size_t size) noexcept {
     require(from_.size() >= size);
     if (!good_) return;
@@ -131,7 +132,7 @@ void archive_or_nan(auto& value, auto& state) {
   bool known = !std::isnan(value);
   auto stored = known ? value : 0;
   state.flag(known);
-  state.numbers(stored);
+  state.fields(stored);
   if constexpr (std::remove_reference_t<decltype(state)>::reading)
     value = known ? stored : std::numeric_limits<double>::quiet_NaN();
 }

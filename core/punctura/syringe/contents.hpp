@@ -16,7 +16,7 @@ struct Contents {
   Scalar left{};      ///< volume that left through the needle so far, m^3; air as it is in the syringe
 
   static void archive(auto& self, auto& state) {
-    state.numbers(self.liquid, self.air, self.pressure, self.left);
+    state.fields(self.liquid, self.air, self.pressure, self.left);
     state.require(self.liquid >= 0 && self.air >= 0);
   }
 };

@@ -24,10 +24,9 @@ struct PlungerState {
   Contents<Scalar> contents{};
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.started);
+    state.fields(self.started);
     state.choice(self.phase, Phase::sliding_out);
-    state.numbers(self.home, self.p, self.e, self.f);
-    Contents<Scalar>::archive(self.contents, state);
+    state.fields(self.home, self.p, self.e, self.f, self.contents);
     state.require(inside(self.phase) && is_place(self.home) && is_place(self.p));
   }
 };
@@ -97,7 +96,7 @@ class BasicPlunger {
   static void archive(auto& self, auto& state) { State::archive(self.state, state); }
   void describe(auto& parameters) const {
     const auto& s = syringe_;
-    parameters.numbers(s.bore, s.liquid, s.air, s.friction, s.compliance, s.resistance);
+    parameters.fields(s.bore, s.liquid, s.air, s.friction, s.compliance, s.resistance);
     coupling_.describe(parameters);
   }
 

@@ -74,7 +74,7 @@ class LineBatch {
       auto& block = self.blocks_[trial / block_lanes];
       const std::size_t lane = trial % block_lanes;
       if (lane == 0) state.flag(block.started);
-      state.numbers(block.p.of[lane], block.e.of[lane], block.f.of[lane]);
+      state.fields(block.p.of[lane], block.e.of[lane], block.f.of[lane]);
       state.require(is_place(block.p.of[lane]));
     }
     if constexpr (std::remove_reference_t<decltype(state)>::reading) self.complete_blocks();
@@ -82,12 +82,12 @@ class LineBatch {
   /// The parameters but the bands, which are the caller's.
   void describe(auto& parameters) const {
     parameters.choice(solver_, Solver::exact);
-    parameters.numbers(period_);
+    parameters.fields(period_);
     parameters.index(trials_, 0);
     for (std::size_t trial = 0; trial < trials_; ++trial) {
       const LineBlock& block = blocks_[trial / block_lanes];
       const std::size_t lane = trial % block_lanes;
-      parameters.numbers(block.K.of[lane], block.g.of[lane], block.inv_g.of[lane], block.B_over_D.of[lane]);
+      parameters.fields(block.K.of[lane], block.g.of[lane], block.inv_g.of[lane], block.B_over_D.of[lane]);
     }
   }
 

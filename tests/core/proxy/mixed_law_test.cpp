@@ -24,7 +24,7 @@ struct HalfLaw {
   using Scalar = double;
   struct Memory {
     double cut = 0, made = 0;
-    static void archive(auto& self, auto& state) { state.numbers(self.cut, self.made); }
+    static void archive(auto& self, auto& state) { state.fields(self.cut, self.made); }
   };
   using Pieces = ThickLaw::Pieces;
   ThickLaw law;

@@ -30,7 +30,7 @@ Scene two_membranes() {
 struct Worn {
   double deepest = 0;
   static void archive(auto& self, auto& state) {
-    state.numbers(self.deepest);
+    state.fields(self.deepest);
     state.require(self.deepest >= 0);
   }
 };
@@ -157,7 +157,7 @@ namespace {
 /// A number that the untouched pieces do not show.
 struct SlowLaw : CutLaw {
   double time_constant;
-  void describe(auto& parameters) const { parameters.numbers(time_constant); }
+  void describe(auto& parameters) const { parameters.fields(time_constant); }
 };
 }  // namespace
 

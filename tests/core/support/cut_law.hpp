@@ -7,7 +7,7 @@ namespace punctura::test {
 
 struct Cut {
   double cut = 0;  ///< the deepest point, m
-  static void archive(auto& self, auto& state) { state.numbers(self.cut); }
+  static void archive(auto& self, auto& state) { state.fields(self.cut); }
 };
 /// A cut needs 1 N behind the deepest point of the cut. There is no force in the hole.
 struct CutLaw {

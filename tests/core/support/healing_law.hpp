@@ -11,7 +11,7 @@ struct Wound {
   double front = 0;   ///< the deepest point of this insertion, m
   double hole = 0;    ///< the deepest point of all insertions, m
   double healed = 0;  ///< of the hole in front of `front`: 0, open, to 1
-  static void archive(auto& self, auto& state) { state.numbers(self.front, self.hole, self.healed); }
+  static void archive(auto& self, auto& state) { state.fields(self.front, self.hole, self.healed); }
 };
 /// To cut needs 1 N, down to 2 mm. The hole of the needle that has left closes with a time constant of 2 s.
 struct HealingLaw {

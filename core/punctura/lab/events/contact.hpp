@@ -99,10 +99,7 @@ class BasicContact {
   /// For save_state() and load_state() (state/archive.hpp). enter(cos_beta) returns the Crossing of the membrane.
   template <typename Enter>
   static void archive(auto& self, auto& state, Enter&& enter) {
-    state.flag(self.touched_);
-    state.flag(self.inside_);
-    state.flag(self.can_pop_);
-    state.numbers(self.peak_, self.crossing_.cos_beta);
+    state.fields(self.touched_, self.inside_, self.can_pop_, self.peak_, self.crossing_.cos_beta);
     if constexpr (std::remove_reference_t<decltype(state)>::reading) self.change_law(enter);
   }
 

@@ -99,7 +99,7 @@ class EventFinderOf {
   void describe(auto& parameters) const {
     for (const Site& site : now_.sites) {
       site.law.pieces(1).describe(parameters);
-      parameters.numbers(site.point, site.normal, site.thickness);
+      parameters.fields(site.point, site.normal, site.thickness);
     }
   }
 

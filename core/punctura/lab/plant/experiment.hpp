@@ -75,17 +75,12 @@ class Experiment {
 
   /// For save_state() and load_state() (state/archive.hpp). Motion also needs `archive` and `describe`. The results of
   /// the last step are not loaded.
-  static void archive(auto& self, auto& state) {
-    Servo::archive(self.servo_, state);
-    Plant::archive(self.plant_, state);
-    Motion::archive(self.motion_, state);
-    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
-  }
+  static void archive(auto& self, auto& state) { state.fields(self.servo_, self.plant_, self.motion_, self.tick_); }
   void describe(auto& parameters) const {
     servo_.describe(parameters);
     plant_.describe(parameters);
     motion_.describe(parameters);
-    parameters.numbers(axis_[0], axis_[1], axis_[2], period_);
+    parameters.fields(axis_[0], axis_[1], axis_[2], period_);
   }
 
  private:

@@ -28,7 +28,7 @@ struct BasicDeviceDynamics {
     return select(norm > max_force, Vector3<Scalar>(force * (max_force / norm)), force);
   }
 
-  void describe(auto& parameters) const { parameters.numbers(mass, friction, encoder_step, max_force); }
+  void describe(auto& parameters) const { parameters.fields(mass, friction, encoder_step, max_force); }
 };
 
 using DeviceDynamics = BasicDeviceDynamics<double>;
@@ -60,7 +60,7 @@ struct BasicHand {
   Scalar tremor_rms = Scalar(3e-5);  ///< m, along each axis; 0 is no tremor. Illustrative
   Scalar tremor_hz = Scalar(9);      ///< Hz; physiological tremor is between 8 and 12 Hz
 
-  void describe(auto& parameters) const { parameters.numbers(mass, damping, stiffness, tremor_rms, tremor_hz); }
+  void describe(auto& parameters) const { parameters.fields(mass, damping, stiffness, tremor_rms, tremor_hz); }
 };
 
 using Hand = BasicHand<double>;
@@ -107,7 +107,7 @@ class BasicTremor {
     y2_ = select(lanes, Vector(), y2_);
   }
 
-  static void archive(auto& self, auto& state) { state.numbers(self.y1_, self.y2_); }
+  static void archive(auto& self, auto& state) { state.fields(self.y1_, self.y2_); }
 
  private:
   Filter filter_{};

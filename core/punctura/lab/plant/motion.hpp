@@ -81,8 +81,8 @@ class StrokesMotion {
 
   static void archive(auto& self, auto& state) { state.index(self.next_, self.segments_.size() + 1); }
   void describe(auto& parameters) const {
-    parameters.numbers(duration_, home_.to);
-    for (const auto& s : segments_) parameters.numbers(s.begin, s.duration, s.from, s.to);
+    parameters.fields(duration_, home_.to);
+    for (const auto& s : segments_) parameters.fields(s.begin, s.duration, s.from, s.to);
   }
 
  private:
@@ -117,7 +117,7 @@ class RecordedMotion {
 
   static void archive(auto& self, auto& state) { state.index(self.next_, self.time_.size() + 1); }
   void describe(auto& parameters) const {
-    for (std::size_t i = 0; i < time_.size(); ++i) parameters.numbers(time_[i], position_[i]);
+    for (std::size_t i = 0; i < time_.size(); ++i) parameters.fields(time_[i], position_[i]);
   }
 
  private:
@@ -145,8 +145,8 @@ class Target {
     return {second_, (first_ - second_) / lag_};
   }
 
-  static void archive(auto& self, auto& state) { state.numbers(self.time_, self.target_, self.first_, self.second_); }
-  void describe(auto& parameters) const { parameters.numbers(lag_); }
+  static void archive(auto& self, auto& state) { state.fields(self.time_, self.target_, self.first_, self.second_); }
+  void describe(auto& parameters) const { parameters.fields(lag_); }
 
  private:
   double lag_, time_ = 0;
@@ -168,7 +168,7 @@ class Steered {
     return {position_, velocity_};
   }
 
-  static void archive(auto& self, auto& state) { state.numbers(self.time_, self.position_, self.velocity_); }
+  static void archive(auto& self, auto& state) { state.fields(self.time_, self.position_, self.velocity_); }
   void describe(auto&) const {}
 
  private:

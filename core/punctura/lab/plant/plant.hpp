@@ -52,16 +52,12 @@ class BasicPlant {
   Vector measured() const noexcept { return encoded(tip_.x, device_.encoder_step, phase_); }
 
   /// For save_state() and load_state() (state/archive.hpp).
-  static void archive(auto& self, auto& state) {
-    state.index(self.tick_, std::numeric_limits<std::uint64_t>::max());
-    BasicTremor<Scalar>::archive(self.tremor_, state);
-    state.numbers(self.tip_.x, self.tip_.v);
-  }
+  static void archive(auto& self, auto& state) { state.fields(self.tick_, self.tremor_, self.tip_.x, self.tip_.v); }
   void describe(auto& parameters) const {
     device_.describe(parameters);
     hand_.describe(parameters);
     parameters.index(seed_, 0);
-    parameters.numbers(response_.time);
+    parameters.fields(response_.time);
   }
 
  private:

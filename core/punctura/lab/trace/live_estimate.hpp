@@ -30,7 +30,7 @@ struct LiveSettings : LivePunctureSettings {
 
   void describe(auto& parameters) const {
     LivePuncture(*this).describe(parameters);
-    parameters.numbers(step, rise_memory, contact);
+    parameters.fields(step, rise_memory, contact);
   }
 };
 
@@ -112,18 +112,11 @@ class LiveEstimate {
   const LiveSettings& settings() const noexcept { return settings_; }
 
   static void archive(auto& self, auto& state) {
-    LivePuncture::archive(self.puncture_, state);
-    LiveLine::archive(self.rise_, state);
-    LiveLine::archive(self.behind_, state);
-    state.numbers(self.surface_, self.last_, self.deepest_, self.sum_);
-    state.index(self.count_, std::uint64_t{1} << 62);
-    state.index(self.ignored_, std::uint64_t{1} << 62);
-    state.flag(self.started_);
+    state.fields(self.puncture_, self.rise_, self.behind_, self.surface_, self.last_, self.deepest_, self.sum_,
+                 self.count_, self.ignored_, self.started_);
     auto& r = self.reading_;
     state.choice(r.phase, LivePhase::behind);
-    state.index(r.punctures, std::uint64_t{1} << 32);
-    state.flag(r.punctured);
-    state.numbers(r.drop);
+    state.fields(r.punctures, r.punctured, r.drop);
     for (auto* number : {&r.slope.value, &r.slope.error, &r.plateau.value, &r.plateau.error, &r.puncture_depth})
       archive_or_nan(*number, state);
   }

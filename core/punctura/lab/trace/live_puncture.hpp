@@ -52,11 +52,11 @@ class LiveLine {
   double at(double ahead) const noexcept { return level_ + slope_ * ahead; }  ///< force `ahead` of the last sample, N
 
   static void archive(auto& self, auto& state) {
-    state.numbers(self.level_, self.slope_, self.p00_, self.p01_, self.p11_, self.m00_, self.m01_, self.m11_,
-                  self.squares_, self.weight_, self.samples_);
+    state.fields(self.level_, self.slope_, self.p00_, self.p01_, self.p11_, self.m00_, self.m01_, self.m11_,
+                 self.squares_, self.weight_, self.samples_);
     state.require(self.p00_ >= 0 && self.p11_ >= 0 && self.squares_ >= 0 && self.weight_ >= 0);
   }
-  void describe(auto& parameters) const { parameters.numbers(memory_, noise_); }
+  void describe(auto& parameters) const { parameters.fields(memory_, noise_); }
 
  private:
   double sigma() const noexcept { return std::max(noise_, weight_ > 0 ? std::sqrt(squares_ / weight_) : noise_); }
@@ -135,15 +135,13 @@ class LivePuncture {
   const LivePunctureSettings& settings() const noexcept { return settings_; }
 
   static void archive(auto& self, auto& state) {
-    state.flag(self.started_);
-    state.flag(self.falling_);
-    state.numbers(self.depth_, self.deepest_, self.velocity_, self.force_, self.calm_, self.greatest_, self.least_,
-                  self.sum_, self.variance_, self.drop_, self.low_, self.low_at_);
+    state.fields(self.started_, self.falling_, self.depth_, self.deepest_, self.velocity_, self.force_, self.calm_,
+                 self.greatest_, self.least_, self.sum_, self.variance_, self.drop_, self.low_, self.low_at_);
     state.require(self.variance_ >= 0);
   }
   void describe(auto& parameters) const {
-    parameters.numbers(settings_.noise, settings_.least_drop, settings_.least_share, settings_.limit,
-                       settings_.least_speed, settings_.unloading);
+    parameters.fields(settings_.noise, settings_.least_drop, settings_.least_share, settings_.limit,
+                      settings_.least_speed, settings_.unloading);
   }
 
  private:
