@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <string>
@@ -50,7 +51,14 @@ punctura_status guarded(F&& f) noexcept {
 #endif
 }
 
-inline punctura_status null_pointer() { return fail(PUNCTURA_BAD_ARGUMENT, "a pointer is NULL"); }
+/// The same if none of these pointers is null.
+template <typename F>
+punctura_status guarded(std::initializer_list<const void*> needed, F&& f) noexcept {
+  return guarded([&] {
+    const bool missing = std::find(needed.begin(), needed.end(), nullptr) != needed.end();
+    return missing ? fail(PUNCTURA_BAD_ARGUMENT, "a pointer is NULL") : f();
+  });
+}
 
 /// The size of each struct in version 1 of the ABI. A caller's struct is never smaller.
 template <typename Struct>
@@ -97,8 +105,7 @@ namespace punctura::c {
 /// A new scene from a text. read(text, scene, problems) adds what is wrong.
 template <typename Read>
 punctura_status scene_from(const char* text, std::size_t size, punctura_scene** scene, Read&& read) {
-  return guarded([&] {
-    if (!text || !scene) return null_pointer();
+  return guarded({text, scene}, [&] {
     auto made = std::make_unique<punctura_scene>();
     std::vector<Problem> problems;
     read(std::string_view(text, size), made->scene, problems);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "punctura/scene/usual.hpp"
 #include "punctura/scene/by_path.hpp"
+#include "punctura/scene/usual.hpp"
 
 namespace punctura::c {
 
@@ -47,8 +47,7 @@ punctura_status punctura_membrane_init(punctura_membrane* membrane, size_t size)
 }
 
 punctura_status punctura_scene_new(const punctura_setup* setup, punctura_scene** scene) {
-  return guarded([&] {
-    if (!setup || !scene) return null_pointer();
+  return guarded({setup, scene}, [&] {
     if (!known_size(setup))
       return fail(PUNCTURA_BAD_ARGUMENT, "setup.struct_size is wrong: call punctura_setup_init()");
     auto made = std::make_unique<punctura_scene>(punctura_scene{});
@@ -63,8 +62,7 @@ punctura_status punctura_scene_new(const punctura_setup* setup, punctura_scene**
 }
 
 punctura_status punctura_scene_add_membrane(punctura_scene* scene, const punctura_membrane* membrane) {
-  return guarded([&] {
-    if (!scene || !membrane) return null_pointer();
+  return guarded({scene, membrane}, [&] {
     if (!known_size(membrane))
       return fail(PUNCTURA_BAD_ARGUMENT, "membrane.struct_size is wrong: call punctura_membrane_init()");
     punctura::PlacedMembrane placed;
@@ -78,16 +76,14 @@ punctura_status punctura_scene_add_membrane(punctura_scene* scene, const punctur
 }
 
 punctura_status punctura_scene_add_syringe(punctura_scene* scene) {
-  return guarded([&] {
-    if (!scene) return null_pointer();
+  return guarded({scene}, [&] {
     scene->scene.syringe.emplace();
     return ok;
   });
 }
 
 punctura_status punctura_scene_make_rows(punctura_scene* scene, const char* list, size_t count) {
-  return guarded([&] {
-    if (!scene || !list) return null_pointer();
+  return guarded({scene, list}, [&] {
     if (count > punctura::longest_list || !make_rows(scene->scene, list, count))
       return fail(PUNCTURA_BAD_ARGUMENT, "the scene has no list \"" + std::string(list) + "\" that can have " +
                                              std::to_string(count) + " rows");
@@ -96,8 +92,7 @@ punctura_status punctura_scene_make_rows(punctura_scene* scene, const char* list
 }
 
 punctura_status punctura_scene_copy(const punctura_scene* scene, punctura_scene** copy) {
-  return guarded([&] {
-    if (!scene || !copy) return null_pointer();
+  return guarded({scene, copy}, [&] {
     *copy = std::make_unique<punctura_scene>(*scene).release();
     return ok;
   });
@@ -106,8 +101,7 @@ punctura_status punctura_scene_copy(const punctura_scene* scene, punctura_scene*
 void punctura_scene_free(punctura_scene* scene) { delete scene; }
 
 punctura_status punctura_scene_set(punctura_scene* scene, const char* path, double value) {
-  return guarded([&] {
-    if (!scene || !path) return null_pointer();
+  return guarded({scene, path}, [&] {
     double* number = number_at(scene->scene, path);
     if (!number && std::string_view(path) == "display.force_scale") {  // a number instead of "automatic"
       scene->scene.display.automatic = false;
@@ -120,8 +114,7 @@ punctura_status punctura_scene_set(punctura_scene* scene, const char* path, doub
 }
 
 punctura_status punctura_scene_get(const punctura_scene* scene, const char* path, double* value) {
-  return guarded([&] {
-    if (!scene || !path || !value) return null_pointer();
+  return guarded({scene, path, value}, [&] {
     const double* number = number_at(scene->scene, path);
     if (!number) return no_path(path);
     *value = *number;
@@ -130,8 +123,7 @@ punctura_status punctura_scene_get(const punctura_scene* scene, const char* path
 }
 
 punctura_status punctura_scene_set_word(punctura_scene* scene, const char* path, const char* word) {
-  return guarded([&] {
-    if (!scene || !path || !word) return null_pointer();
+  return guarded({scene, path, word}, [&] {
     std::vector<punctura::Problem> problems;
     if (punctura::ScenePlaces(scene->scene).set(path, word, problems)) return ok;
     return fail(std::move(problems));
@@ -149,8 +141,7 @@ int32_t punctura_scene_field_count(const punctura_scene* scene) {
 }
 
 punctura_status punctura_scene_field(const punctura_scene* scene, int32_t index, punctura_field* field) {
-  return guarded([&] {
-    if (!scene || !field) return null_pointer();
+  return guarded({scene, field}, [&] {
     if (!known_size(field)) return fail(PUNCTURA_BAD_ARGUMENT, "field.struct_size is wrong: set it to sizeof *field");
     int32_t count = 0;
     std::optional<punctura_field> found;
@@ -182,8 +173,7 @@ int32_t punctura_scene_membrane_count(const punctura_scene* scene) {
 }
 
 punctura_status punctura_scene_check(const punctura_scene* scene) {
-  return guarded([&] {
-    if (!scene) return null_pointer();
+  return guarded({scene}, [&] {
     auto problems = check(scene->scene);
     return problems.empty() ? ok : fail(std::move(problems));
   });

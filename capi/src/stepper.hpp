@@ -51,8 +51,7 @@ std::size_t state_size(const S* stepper) noexcept {
 
 template <typename S>
 punctura_status save(const S* stepper, void* state, std::size_t size) {
-  return guarded([&] {
-    if (!stepper || !state) return null_pointer();
+  return guarded({stepper, state}, [&] {
     if (size < stepper->state_size)
       return fail(PUNCTURA_BAD_ARGUMENT, "the buffer has " + std::to_string(size) + " bytes; the state needs " +
                                              std::to_string(stepper->state_size));
@@ -64,8 +63,7 @@ punctura_status save(const S* stepper, void* state, std::size_t size) {
 
 template <typename S>
 punctura_status restore(S* stepper, const void* state, std::size_t size) {
-  return guarded([&] {
-    if (!stepper || !state) return null_pointer();
+  return guarded({stepper, state}, [&] {
     if (size != stepper->state_size)
       return fail(PUNCTURA_BAD_STATE, "the state has " + std::to_string(size) + " bytes; this object's state has " +
                                           std::to_string(stepper->state_size));
@@ -80,8 +78,7 @@ punctura_status restore(S* stepper, const void* state, std::size_t size) {
 /// Makes a handle with `make()`, which returns a unique_ptr, empty after it has kept an error.
 template <typename Handle, typename Make>
 punctura_status make_handle(const punctura_scene* scene, Handle** handle, Make&& make) {
-  return guarded([&] {
-    if (!scene || !handle) return null_pointer();
+  return guarded({scene, handle}, [&] {
     std::unique_ptr<Handle> made;
     const punctura_status status = make(made);
     if (status == ok) *handle = made.release();

@@ -30,9 +30,8 @@ struct Given {
       try {
         all.push_back(nb::cast<T>(one));
       } catch (const nb::cast_error&) {
-        throw nb::type_error(
-            (std::string(name) + " must be " + wanted + ", not " + nb::cast<std::string>(nb::type_name(one.type())))
-                .c_str());
+        throw type_error(std::string(name) + " must be " + wanted + ", not " +
+                         nb::cast<std::string>(nb::type_name(one.type())));
       }
     };
     if (single) {
@@ -41,9 +40,8 @@ struct Given {
     }
     const std::size_t n = nb::len(given);
     if (n != trials.value_or(n))
-      throw nb::value_error((std::string(name) + " has length " + std::to_string(n) + ", and the number of trials is " +
-                             std::to_string(*trials) + ": give one for each trial, or a single one for all")
-                                .c_str());
+      throw value_error(std::string(name) + " has length " + std::to_string(n) + ", and the number of trials is " +
+                        std::to_string(*trials) + ": give one for each trial, or a single one for all");
     trials = n;
     all.reserve(n);
     for (std::size_t i = 0; i < n; ++i) add(given[i]);
@@ -125,9 +123,8 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
   const std::size_t n = self.trials();
   const bool shared = p.ndim() == 1;
   if (!shared && !(p.ndim() == 2 && p.shape(1) == n))
-    throw nb::value_error(("p must have shape (ticks,), the same motion for all trials, or (ticks, " +
-                           std::to_string(n) + "), one column for each trial")
-                              .c_str());
+    throw value_error("p must have shape (ticks,), the same motion for all trials, or (ticks, " + std::to_string(n) +
+                      "), one column for each trial");
   const std::size_t ticks = p.shape(0);
   const Grid<const double> motion{p.data(), p.stride(0), shared ? 0 : p.stride(1)};
   nb::object result = out;
@@ -139,9 +136,8 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
   }
   Forces array;
   if (!nb::try_cast(result, array, false) || array.shape(0) != ticks || array.shape(1) != n)
-    throw nb::value_error(
-        ("out must be a writable float64 array of shape (" + std::to_string(ticks) + ", " + std::to_string(n) + ")")
-            .c_str());
+    throw value_error("out must be a writable float64 array of shape (" + std::to_string(ticks) + ", " +
+                      std::to_string(n) + ")");
   if (!out.is_none() && overlaps_itself(array))
     throw nb::value_error("out overlaps itself: some of its elements are at the same place. Give an array of its own");
   const bool same = array.data() == p.data() && array.stride(0) == motion.by_tick && array.stride(1) == motion.by_trial;
@@ -161,9 +157,9 @@ Floats run(LawBatch& self, const ArrayLike& depths, const Floats& out, const Obj
   if (outcome.bad) {
     const std::string place =
         "p[" + std::to_string(outcome.bad->tick) + (shared ? "" : ", " + std::to_string(outcome.bad->trial)) + "]";
-    throw nb::value_error((place + " is no finite position within 1000 km: leave such ticks out, or fill them in. "
-                                   "All trials keep the state from before")
-                              .c_str());
+    throw value_error(place +
+                      " is no finite position within 1000 km: leave such ticks out, or fill them in. "
+                      "All trials keep the state from before");
   }
   reporter.report(1, 1);
   return result;

@@ -34,6 +34,10 @@ namespace punctura::bindings {
 /// NaN of a masked number.
 bool is_real(nb::handle object) noexcept;
 
+/// nanobind's errors copy a C string.
+inline auto value_error(const std::string& text) { return nb::value_error(text.c_str()); }
+inline auto type_error(const std::string& text) { return nb::type_error(text.c_str()); }
+
 // Python types of arguments and results that C++ takes and gives as plain objects.
 template <std::size_t n>
 struct TypeText {

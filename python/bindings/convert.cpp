@@ -43,28 +43,27 @@ void enough_memory(double bytes, const std::string& what, const char* advice) {
 nb::object real_numbers(const nb::object& array_like, const char* name, const char* type) {
   const nb::object numpy = nb::module_::import_("numpy");
   if (is_masked(array_like))
-    throw nb::value_error((std::string(name) + " has masked elements: fill them in, or leave them out").c_str());
+    throw value_error(std::string(name) + " has masked elements: fill them in, or leave them out");
   nb::object given;
   try {
     given = numpy.attr("asarray")(array_like);
   } catch (nb::python_error& error) {
     if (!error.matches(PyExc_ValueError)) throw;
-    throw nb::value_error(
-        (std::string(name) + " must be an array of numbers: its rows have different lengths").c_str());
+    throw value_error(std::string(name) + " must be an array of numbers: its rows have different lengths");
   }
   // Otherwise NumPy reads text and times as numbers, and drops the imaginary part of complex ones.
   const std::string kind = kind_of(given);
   if (std::string("biufO").find(kind) == std::string::npos) {
     const std::string held =
         kind == "U" || kind == "S" ? "text" : nb::cast<std::string>(nb::str(nb::object(given.attr("dtype"))));
-    throw nb::type_error((std::string(name) + " must hold real numbers, not " + held).c_str());
+    throw type_error(std::string(name) + " must hold real numbers, not " + held);
   }
   if (!given.attr("dtype").equal(numpy.attr("dtype")(type))) copy_fits(given, name);
   try {
     return numpy.attr("asarray")(given, type);
   } catch (nb::python_error& error) {
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
-    throw nb::type_error((std::string(name) + " must hold real numbers").c_str());
+    throw type_error(std::string(name) + " must hold real numbers");
   }
 }
 
@@ -88,14 +87,13 @@ bool is_numpy_array(nb::handle object) noexcept {
 
 Input input_1d(const nb::object& array_like, const char* name) {
   Input array = input(array_like, name);
-  if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must have shape (n,)").c_str());
+  if (array.ndim() != 1) throw value_error(std::string(name) + " must have shape (n,)");
   return array;
 }
 
 Input points(const nb::object& array_like, const char* name) {
   Input array = input(array_like, name);
-  if (array.ndim() != 2 || array.shape(1) != 3)
-    throw nb::value_error((std::string(name) + " must have shape (n, 3)").c_str());
+  if (array.ndim() != 2 || array.shape(1) != 3) throw value_error(std::string(name) + " must have shape (n, 3)");
   return array;
 }
 
@@ -104,7 +102,7 @@ Rows::Rows(Input array, std::size_t n, const char* name) : array_(std::move(arra
   const bool many = array_.ndim() == 2 && array_.shape(0) == n && array_.shape(1) == 3;
   if (!one && !many) {
     const std::string text = std::string(name) + " must have shape (3,) or (" + std::to_string(n) + ", 3)";
-    throw nb::value_error(text.c_str());
+    throw value_error(text);
   }
   if (one) stride_ = 0;
 }
@@ -184,13 +182,13 @@ std::size_t count_from(const nb::object& given, const char* name, std::size_t le
   const nb::object whole = nb::steal(PyNumber_Index(given.ptr()));
   if (!whole) {
     PyErr_Clear();
-    throw nb::type_error(wrong().c_str());
+    throw type_error(wrong());
   }
   int overflow = 0;
   const long long number = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
   if (overflow != 0 || number < 0 || static_cast<std::size_t>(number) < least ||
       static_cast<std::size_t>(number) > most)
-    throw nb::value_error(wrong().c_str());
+    throw value_error(wrong());
   return static_cast<std::size_t>(number);
 }
 

@@ -24,9 +24,8 @@ class Column {
     if (!nb::cast<bool>(columns.attr("__contains__")(name))) return;
     array_ = input(columns[name], name);
     if (array_->ndim() == 0 || array_->shape(0) != rows || array_->size() != rows * width)
-      throw nb::value_error(("columns[\"" + std::string(name) + "\"] must have " + std::to_string(rows) + " rows of " +
-                             std::to_string(width) + " numbers, as columns[\"depth\"] has")
-                                .c_str());
+      throw value_error("columns[\"" + std::string(name) + "\"] must have " + std::to_string(rows) + " rows of " +
+                        std::to_string(width) + " numbers, as columns[\"depth\"] has");
   }
   explicit operator bool() const noexcept { return array_.has_value(); }
   double operator()(std::size_t row, std::size_t i = 0) const noexcept {
@@ -133,10 +132,8 @@ Object<"list[FoundEvent]"> add(BatchFinder& finder,
   for (const Found& event : found) {
     if (!std::isfinite(event.time) || !std::isfinite(event.depth)) {
       finder = before;
-      throw nb::value_error(("tick " + std::to_string(event.tick) + ": " +
-                             (std::isfinite(event.time) ? "depth" : "time") +
-                             " must be finite where an event is found. No tick of the batch was taken")
-                                .c_str());
+      throw value_error("tick " + std::to_string(event.tick) + ": " + (std::isfinite(event.time) ? "depth" : "time") +
+                        " must be finite where an event is found. No tick of the batch was taken");
     }
     events.append(as_dict(event));
   }

@@ -54,11 +54,11 @@ class Fleet : public OneThread {
     const Input speed = input_1d(speeds, "speed");
     const std::size_t n = size();
     if (speed.size() != n)
-      throw nb::value_error(("speed must have one number for each of the " + std::to_string(n) + " trials").c_str());
+      throw value_error("speed must have one number for each of the " + std::to_string(n) + " trials");
     if (ticks == 0) throw nb::value_error("ticks must be 1 or more");
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isfinite(speed.data()[i]))
-        throw nb::value_error(("speed[" + std::to_string(i) + "] must be finite. No tick was made").c_str());
+        throw value_error("speed[" + std::to_string(i) + "] must be finite. No tick was made");
     const Running running(*this);
     fleet_.begin();
     const std::size_t block = std::max<std::size_t>(1, ticks_without_signals / std::max<std::size_t>(1, n));

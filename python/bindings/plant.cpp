@@ -27,9 +27,9 @@ RecordedMotion recorded(const nb::object& times, const nb::object& positions) {
     tips[i] = {row[0], row[1], row[2]};
     const std::string sample = "sample " + std::to_string(i);
     if (!std::isfinite(time.data()[i]) || (i > 0 && !(time.data()[i] > time.data()[i - 1])))
-      throw nb::value_error((sample + ": time must be finite and ascend").c_str());
+      throw value_error(sample + ": time must be finite and ascend");
     if (!std::all_of(row, row + 3, [](double x) { return is_place(x); }))
-      throw nb::value_error((sample + ": position must be three finite numbers, m, within 1000 km").c_str());
+      throw value_error(sample + ": position must be three finite numbers, m, within 1000 km");
   }
   return {std::vector<double>(time.data(), time.data() + n), std::move(tips)};
 }

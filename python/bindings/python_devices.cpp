@@ -25,7 +25,7 @@ std::vector<T> column(const nb::object& given, const char* type, std::size_t n, 
   const auto array = nb::cast<nb::ndarray<const T, nb::c_contig, nb::device::cpu>>(
       nb::module_::import_("numpy").attr("ascontiguousarray")(real_numbers(given, name, type)));
   if (array.ndim() != 1 || array.size() != n)
-    throw nb::value_error((std::string(name) + " must have shape (" + std::to_string(n) + ",)").c_str());
+    throw value_error(std::string(name) + " must have shape (" + std::to_string(n) + ",)");
   return {array.data(), array.data() + n};
 }
 

@@ -26,7 +26,7 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
       const auto number = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == word; });
       if (number == all.end()) raise_word(path, word, ("is not a parameter of this rival. It has " + known).c_str());
       double& value = run.rival.*number->value;
-      if (!nb::try_cast(given, value)) throw nb::type_error((path + " must be a number").c_str());
+      if (!nb::try_cast(given, value)) throw type_error(path + " must be a number");
       if (value >= number->low && value <= number->high) continue;
       const nb::object bounds =
           nb::str("must be between {:g} and {:g} {}").attr("format")(number->low, number->high, number->unit);
@@ -90,7 +90,7 @@ Floats loads(const AnyRival& rival, const ArrayLike& depth, const ArrayLike& vel
         load[i] = here > 0 ? run.rival.load(run.state, here) : 0;
       }
     } else {
-      throw nb::value_error((std::string(run.rival.name) + " has no puncture").c_str());
+      throw value_error(std::string(run.rival.name) + " has no puncture");
     }
   });
   return to_numpy(std::move(load), {path.n});

@@ -103,10 +103,9 @@ bool is_real(nb::handle given) {
 
 /// Throws TypeError or ValueError, which names the path and has the exception of __float__ as its cause.
 double number_at(const std::string& path, nb::handle given) {
-  if (!is_number(given))
-    throw nb::type_error(("with_values(): " + path + " must be a number; replace() sets words").c_str());
+  if (!is_number(given)) throw type_error("with_values(): " + path + " must be a number; replace() sets words");
   const std::string no_number = "with_values(): " + path + " must be one real number";
-  if (axes_of(given) > 0 || !is_real(given)) throw nb::type_error(no_number.c_str());
+  if (axes_of(given) > 0 || !is_real(given)) throw type_error(no_number);
   const double number = PyFloat_AsDouble(given.ptr());
   if (!PyErr_Occurred()) return number;
   nb::python_error error;
@@ -133,8 +132,7 @@ Scene with_values(Scene scene, const nb::dict& values) {
     nb::list paths;
     for (const auto& known : places) paths.append(known.first);
     const std::string says = "is not a number of this scene (scene.fields() lists them";
-    if (!is_number(item[1]))
-      throw nb::type_error(("with_values(): " + path + " " + says + "); replace() sets words").c_str());
+    if (!is_number(item[1])) throw type_error("with_values(): " + path + " " + says + "); replace() sets words");
     problems.push_back({path, number_at(path, item[1]), says + ")" + nearest(path, paths)});
   }
   for (const Problem& problem : check(scene)) problems.push_back(problem);

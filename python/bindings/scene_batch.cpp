@@ -24,9 +24,8 @@ SceneBatch::Motion motion_of(const nb::object& given, const nb::object& axis, st
   const Input p = input(given, "motion");
   const bool each = p.ndim() == 3 && p.shape(0) == trials && p.shape(2) == 3;
   if (!each && !(p.ndim() == 2 && p.shape(1) == 3))
-    throw nb::value_error(("motion must be Strokes, a RecordedMotion, or positions of shape (ticks, 3) or (" +
-                           std::to_string(trials) + ", ticks, 3)")
-                              .c_str());
+    throw value_error("motion must be Strokes, a RecordedMotion, or positions of shape (ticks, 3) or (" +
+                      std::to_string(trials) + ", ticks, 3)");
   const std::size_t ticks = p.shape(each ? 1 : 0);
   check_places(p.data(), p.size(), "motion", 3);
   const Input a = input(axis, "axis");
@@ -57,7 +56,7 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
     const auto path = nb::cast<std::string>(item[0]);
     const Input values = input_1d(nb::borrow(item[1]), path.c_str());
     all.varied.push_back({path, {values.data(), values.data() + values.size()}});
-    if (values.size() != trials) throw nb::value_error((path + ": one value for each trial is needed").c_str());
+    if (values.size() != trials) throw value_error(path + ": one value for each trial is needed");
   }
   if (all.seeds.size() != trials) throw nb::value_error("seeds: one for each trial is needed");
 
@@ -76,10 +75,9 @@ Columns run_scenes(const Scene& scene, const Object<"typing.Any">& motion,
   for (const auto& [path, values] : all.varied) {
     if (std::find(known.begin(), known.end(), path) != known.end()) continue;
     const std::string near = nearest(path, nb::cast<nb::list>(nb::cast(known)));
-    throw nb::value_error(("vary: this batch has no number " + path + (near.empty() ? "." : near) +
-                           " scene.fields() lists those of the scene; hand, plant and strokes have theirs, as in "
-                           "\"hand.stiffness\"")
-                              .c_str());
+    throw value_error("vary: this batch has no number " + path + (near.empty() ? "." : near) +
+                      " scene.fields() lists those of the scene; hand, plant and strokes have theirs, as in "
+                      "\"hand.stiffness\"");
   }
   {
     const WithoutLock without;

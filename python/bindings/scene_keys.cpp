@@ -41,7 +41,7 @@ std::tuple<std::optional<Scene>, std::vector<FoundProblem>> scene_from_values(co
     else if (double* const number = places.number(path))
       *number = nb::cast<double>(value);
     else
-      throw nb::value_error(("the scene has no number " + path).c_str());
+      throw value_error("the scene has no number " + path);
   }
   for (const Problem& problem : check(scene)) problems.push_back(problem);
   std::vector<FoundProblem> found;

@@ -21,9 +21,8 @@ inline const batch::LineCode& code_named(const std::optional<std::string>& given
   std::string names;
   for (const batch::LineCode* code : batch::line_codes())
     names += (names.empty() ? "" : ", ") + std::string(code->name);
-  throw nanobind::value_error(("instructions: this processor or this build has no \"" + name + "\": choose one of " +
-                               names + (given ? "" : " in the environment variable PUNCTURA_SIMD, or remove it"))
-                                  .c_str());
+  throw value_error("instructions: this processor or this build has no \"" + name + "\": choose one of " + names +
+                    (given ? "" : " in the environment variable PUNCTURA_SIMD, or remove it"));
 }
 
 /// The options of a run that tells its progress and ends at Ctrl-C.

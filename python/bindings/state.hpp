@@ -141,9 +141,8 @@ void def_state(nb::class_<T>& cls, Arguments arguments) {
           "state", &saved<T>,
           [name](T& self, const nb::bytes& state) {
             if (!loaded(self, state))
-              throw nb::value_error(("these bytes are no state of this " + name +
-                                     ": they are damaged, or of other parameters, or of another version of punctura")
-                                        .c_str());
+              throw value_error("these bytes are no state of this " + name +
+                                ": they are damaged, or of other parameters, or of another version of punctura");
           },
           nb::for_getter(nb::sig("def state(self) -> bytes")),
           nb::for_setter(nb::sig("def state(self, state: bytes, /) -> None")),

@@ -63,8 +63,7 @@ void check_numbers(const double* values, std::size_t n, const char* name, std::s
   if (bad == values + n) return;
   const std::size_t at = static_cast<std::size_t>(bad - values);
   const std::string place = row_length > 0 ? "[" + std::to_string(at / row_length) + "]" : "";
-  throw nb::value_error(
-      (std::string(name) + place + says + decimal_text(*bad, 6) + remedy + ". No tick was made").c_str());
+  throw value_error(std::string(name) + place + says + decimal_text(*bad, 6) + remedy + ". No tick was made");
 }
 
 /// Requires finite numbers. row_length: numbers per row of an array; 0 for a single value.
@@ -85,16 +84,14 @@ inline void check_places(const double* values, std::size_t n, const char* name, 
 /// A position as a vector. Throws ValueError if a number is not finite or beyond 1000 km.
 inline Vector3d place(const Triple& position) {
   if (!std::all_of(position.begin(), position.end(), [](double x) { return is_place(x); }))
-    throw nb::value_error(("position must be three finite numbers, m, within 1000 km, not " +
-                           nb::cast<std::string>(nb::repr(nb::make_tuple(position[0], position[1], position[2]))))
-                              .c_str());
+    throw value_error("position must be three finite numbers, m, within 1000 km, not " +
+                      nb::cast<std::string>(nb::repr(nb::make_tuple(position[0], position[1], position[2]))));
   return to_vector(position);
 }
 
 /// Throws ValueError for a direction of length 0.
 inline void check_direction(const Vector3d& axis, const std::string& name) {
-  if (axis == Vector3d())
-    throw nb::value_error((name + " must be a direction: at least one of its three numbers not 0").c_str());
+  if (axis == Vector3d()) throw value_error(name + " must be a direction: at least one of its three numbers not 0");
 }
 
 /// The needle's direction as a unit vector. Throws ValueError for length 0.

@@ -98,9 +98,9 @@ class TraceModel {
   }
   static std::vector<double> values(const nb::object& given, const char* name) {
     const Input array = input(given, name);
-    if (array.ndim() != 1) throw nb::value_error((std::string(name) + " must be (n,)").c_str());
+    if (array.ndim() != 1) throw value_error(std::string(name) + " must be (n,)");
     for (std::size_t i = 0; i < array.size(); ++i)
-      if (!std::isfinite(array.data()[i])) throw nb::value_error((std::string(name) + " must be finite").c_str());
+      if (!std::isfinite(array.data()[i])) throw value_error(std::string(name) + " must be finite");
     return {array.data(), array.data() + array.size()};
   }
 
