@@ -28,7 +28,6 @@ inline std::size_t ticks_in(double duration, double rate) {
   return static_cast<std::size_t>(std::llround(duration * rate));
 }
 
-/// Makes n ticks.
 template <typename E>
 TicksObject run_experiment(E& experiment, std::size_t n, const ProgressArgument& progress) {
   TickColumns columns({}, true);

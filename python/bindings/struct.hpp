@@ -113,7 +113,6 @@ struct ClassTexts {
 
 /// Checks each number alone.
 struct CheckNumbers {};
-/// Checks nothing.
 inline constexpr auto unchecked = [](const auto&, std::vector<Problem>&) {};
 
 /// A struct T of these rows: an array or a tuple of FieldOf, with static storage.
@@ -177,7 +176,6 @@ class StructOf<rows, std::tuple<FieldOf<T, Value>...>, std::index_sequence<i...>
         extra..., argument(std::get<i>(table), standard, static_cast<int>(i) < needed)...,
         (doc + texts.raises).c_str());
   }
-  /// The arguments of the constructor.
   static nb::tuple arguments(const T& given) {
     return nb::make_tuple(InPython<Value>::shown(given.*std::get<i>(table).member)...);
   }

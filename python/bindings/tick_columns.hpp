@@ -17,7 +17,6 @@
 
 namespace punctura::bindings {
 
-/// The NumPy type of a field's numbers.
 template <typename Value>
 struct Stored {
   using Type = std::conditional_t<std::is_enum_v<Value> || std::is_same_v<Value, bool>, std::uint8_t, Value>;
@@ -34,7 +33,6 @@ struct Stored<Triple> {
 /// Whether a field is one of this record.
 template <typename Record, typename Field>
 inline constexpr bool is_of = std::is_same_v<typename std::remove_cvref_t<Field>::Record, Record>;
-/// The stored type of a field.
 template <typename Field>
 struct FieldStore : Stored<typename std::remove_cvref_t<Field>::Value> {
   using Value = typename std::remove_cvref_t<Field>::Value;
@@ -46,7 +44,6 @@ std::tuple<std::vector<typename FieldStore<Fields>::Type>...> columns_of_table(c
 template <typename Table>
 using ColumnsOf = decltype(columns_of_table(std::declval<Table>()));
 
-/// The NumPy name of a type.
 template <typename T>
 std::string dtype_name() {
   if constexpr (std::is_same_v<T, bool>) return "bool";

@@ -106,7 +106,6 @@ TicksObject TickColumns::to_ticks(std::size_t components, bool single) {
 
 namespace {
 
-/// One row of the table.
 struct Field {
   std::string name, column, unit, says, dtype;
   std::size_t width;

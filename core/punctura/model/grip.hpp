@@ -165,7 +165,6 @@ Scalar reached_force(const Chords<Scalar>& chords, const GripFactors<Scalar>& fa
 }
 }  // namespace detail
 
-/// The largest number of chords.
 inline constexpr std::size_t most_chords = 28;
 /// The largest error of Phi, as a fraction of its largest force, that chords may have.
 inline constexpr double most_chord_error = 1e-4;

@@ -81,7 +81,6 @@ concept OneNumber = is_one_number<V>;
 template <typename V>
 concept Lanes = !OneNumber<V> && OneNumber<typename V::value_type>;
 
-/// The type of one lane.
 template <typename V>
 struct LaneOf {
   using type = typename V::value_type;

@@ -117,9 +117,7 @@ constexpr bool memory_is_whole =
                               requires { typename L::Memory; } || requires { &L::advance; })) &&
      (HearsLeaving<L> || !requires { &L::leave; }) && (RefreshesPieces<L> || !requires { &L::refresh; }));
 
-/// The memory of a law that has none.
 struct NoMemory {};
-/// The memory type of a law.
 template <typename L>
 struct MemoryOf {
   using type = NoMemory;
@@ -136,7 +134,6 @@ void describe_law(const auto& law, const auto& pieces, auto& parameters) {
   if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
 }
 
-/// The type of a law's pieces.
 template <Law L>
 using PiecesOf = std::remove_cvref_t<decltype(std::declval<const L&>().pieces())>;
 

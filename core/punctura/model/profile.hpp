@@ -12,10 +12,8 @@
 
 namespace punctura {
 
-/// The largest number of knots in a profile.
 inline constexpr std::size_t max_knots = 32;
 
-/// One knot of a profile.
 template <typename Scalar>
 struct BasicKnot {
   Scalar depth = Scalar(not_given);  ///< m, along the needle

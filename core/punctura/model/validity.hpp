@@ -12,7 +12,6 @@
 
 namespace punctura {
 
-/// One problem of a configuration.
 struct Problem {
   std::string path;    ///< field, as in "membrane[1].friction"
   double value;        ///< the given value, SI

@@ -149,7 +149,6 @@ template <OneNumber Scalar>
 constexpr std::array<double, 3> to_array(const Vector3<Scalar>& v) noexcept {
   return v.template cast<double>().array();
 }
-/// The vector of three doubles.
 constexpr Vector3d to_vector(const std::array<double, 3>& v) noexcept { return Vector3d(v); }
 
 }  // namespace punctura

@@ -49,7 +49,6 @@ struct LineState {
   }
 };
 
-/// The result of a tick on a line.
 template <typename Scalar>
 struct LineTick {
   Scalar force;       ///< f(k), N, on the device

@@ -91,7 +91,6 @@ class Proxy3d {
 
   constexpr const Params& params() const noexcept { return params_; }
   constexpr Solver solver() const noexcept { return solver_; }
-  /// The result of the last step.
   constexpr SpaceTick<Scalar> tick() const noexcept {
     return {state_.f, position(), state_.b, axial_force(), depth(), band(), state_.phase};
   }

@@ -21,7 +21,6 @@ struct BasicMaxwellBranch {
 };
 using MaxwellBranch = BasicMaxwellBranch<double>;
 
-/// The largest number of Maxwell branches of a coupling.
 inline constexpr std::size_t max_branches = 2;
 
 /// K06's coupling (21) with Maxwell branches beside it, sampled with the period T (s): a standard linear solid.

@@ -18,7 +18,6 @@ enum class Solver : std::uint8_t {
 template <>
 inline constexpr std::array<std::string_view, 2> words_of<Solver>{"paper", "exact"};
 
-/// The phase of a needle in one membrane.
 enum class Phase : std::uint8_t {
   outside,      ///< in front of the surface: no force
   sticking,     ///< the proxy rests: the force is inside the band

@@ -14,7 +14,6 @@
 
 namespace punctura {
 
-/// The limits on the force for the device.
 struct ForceLimits {
   double max_force = Omni::max_force;                ///< N, norm
   double continuous_force = Omni::continuous_force;  ///< N rms in any interval of continuous_time

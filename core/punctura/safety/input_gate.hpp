@@ -13,7 +13,6 @@
 
 namespace punctura {
 
-/// The limits of the input gate.
 struct GateLimits {
   double max_speed = 8;          ///< m/s from one reading to the next; at 1600 Hz this is 5 mm
   double stale = 0.015;          ///< longest time without a new reading, s

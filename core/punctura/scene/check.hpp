@@ -138,7 +138,6 @@ inline std::vector<Problem> check(const Scene& scene) {
   return problems;
 }
 
-/// All problems of a placement.
 inline std::vector<Problem> check(const Placement& placement) {
   std::vector<Problem> problems;
   const auto& r = placement.rotation;
@@ -151,7 +150,6 @@ inline std::vector<Problem> check(const Placement& placement) {
   return problems;
 }
 
-/// All problems of the safety limits.
 inline std::vector<Problem> check(const GateLimits& gate, const ForceLimits& limits) {
   std::vector<Problem> problems;
   check_fields(gate_fields, gate, "gate", problems);

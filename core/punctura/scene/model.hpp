@@ -57,7 +57,6 @@ RelaxingCoupling<Scalar> relaxing_coupling_of(const Scene& scene) {
   return {{c.K, c.B}, branches, c.T};
 }
 
-/// The tissue in another scalar.
 template <typename Scalar>
 BasicTissue<Scalar> tissue_as(const Tissue& tissue) {
   const auto to = [](double x) { return static_cast<Scalar>(x); };

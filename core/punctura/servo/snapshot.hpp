@@ -18,7 +18,6 @@ namespace punctura {
 /// The largest number of membranes in a scene. It gives a snapshot a fixed size.
 inline constexpr std::size_t max_membranes = 64;
 
-/// The state of the servo step.
 enum class ServoState : std::uint8_t {
   disarmed,  ///< the model runs, and the device gets no force
   waiting,   ///< armed, but the tip is not in front of every membrane, or no dead-man button is held
@@ -29,7 +28,6 @@ enum class ServoState : std::uint8_t {
 /// The commands to the step since the previous tick, as bits. A replay needs them and the samples.
 enum Command : std::uint32_t { command_arm = 1, command_disarm = 2, command_reset = 4, command_scene = 8 };
 
-/// The record of a membrane in a tick.
 struct MembraneRecord {
   double depth;                     ///< m, see SpaceTick::depth
   double axial_force;               ///< N, along b
@@ -49,7 +47,6 @@ struct SyringeRecord {
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 inline constexpr SyringeRecord no_syringe{nothing, nothing, nothing, nothing};
 
-/// The record of a tick.
 struct Snapshot {
   std::uint64_t tick;
   DeviceSample sample;

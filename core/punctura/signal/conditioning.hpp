@@ -87,7 +87,6 @@ class PositionConditioner {
     low_pass_.describe(parameters);
   }
 
-  /// Whether it has had a sample.
   bool started() const noexcept { return low_pass_.started(); }
   Scalar low_pass_gain() const noexcept { return low_pass_.gain(); }          ///< of a sample, 0 to 1
   const Line* line() const noexcept { return fits_ ? &lines_[0] : nullptr; }  ///< of one axis; null: no line is fitted

@@ -11,8 +11,8 @@
 #include "punctura/scene/build.hpp"
 #include "punctura/scene/model.hpp"
 #include "punctura_runtime/batch/line_block.hpp"
+#include "punctura_runtime/batch/run_summary.hpp"
 #include "punctura_runtime/batch/scene_block.hpp"
-#include "punctura_runtime/batch/scene_summary.hpp"
 
 namespace punctura::batch {
 

@@ -13,7 +13,7 @@
 #include "punctura_runtime/batch/blocks.hpp"
 #include "punctura_runtime/batch/lane_trials.hpp"
 #include "punctura_runtime/batch/run_line.hpp"
-#include "punctura_runtime/batch/scene_summary.hpp"
+#include "punctura_runtime/batch/run_summary.hpp"
 
 namespace punctura::batch {
 

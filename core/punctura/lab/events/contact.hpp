@@ -9,7 +9,6 @@
 
 namespace punctura {
 
-/// The kind of an event at a membrane.
 enum class EventKind : std::uint8_t {
   touch,  ///< the tip enters the membrane
   pop,    ///< the whole tip, with its slanted face, has passed the membrane

@@ -148,7 +148,6 @@ class EventFinderOf {
   std::size_t found_ = 0;
 };
 
-/// The event finder for the laws of a scene.
 using EventFinder = EventFinderOf<SceneLaw<double>>;
 
 }  // namespace punctura

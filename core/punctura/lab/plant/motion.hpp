@@ -43,7 +43,6 @@ struct MinimumJerk {
   }
 };
 
-/// The motion of Strokes for a seed.
 class StrokesMotion {
  public:
   StrokesMotion(const Strokes& strokes, std::uint64_t seed) : rest_(strokes.rest) {

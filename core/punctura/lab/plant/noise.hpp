@@ -77,7 +77,6 @@ constexpr std::uint64_t split_mix(std::uint64_t key, std::uint64_t count) noexce
   return z ^ z >> 31;
 }
 
-/// The noise of a seed.
 class TickNoise {
  public:
   constexpr TickNoise(std::uint64_t seed = 0) noexcept : key_(split_mix(seed, 1)) {}

@@ -80,7 +80,6 @@ class LiveEstimate {
         rise_(settings.rise_memory, 0.1 * settings.noise),
         behind_(plateau_memory, 0.1 * settings.noise) {}
 
-  /// Forgets everything.
   void reset() noexcept { *this = LiveEstimate(settings_); }
 
   /// One tick. depth: m, growing inwards from any origin. force: N, against the insertion. period: s, greater than 0.

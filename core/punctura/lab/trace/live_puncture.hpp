@@ -73,7 +73,6 @@ class LiveLine {
   double squares_ = 0, weight_ = 0, samples_ = 0;
 };
 
-/// What the detector of punctures needs to know.
 struct LivePunctureSettings {
   double noise = 4e-3, least_drop = 0.06, least_share = 0.08, least_speed = 3e-4, unloading = 2000;  ///< live_fields
   double limit = 10;  ///< of the cumulative sum, in standard deviations
