@@ -17,116 +17,6 @@
 
 namespace punctura::batch {
 
-SceneTrials::SceneTrials(const SceneBatch& all, SceneResults& results, const std::atomic<bool>& stop)
-    : LaneTrials(!std::holds_alternative<Positions>(all.motion)), all_(all), results_(results), stop_(stop) {
-  block_->keeps_force = results.force != nullptr;
-  alone_.reserve(block_lanes);
-}
-
-bool SceneTrials::add(std::size_t i, const TrialNumbers& numbers) {
-  const auto& [scene, plant, hand, strokes] = numbers;
-  const std::size_t lane = lanes_.size();
-  LaneTrial* const put_there = put(lane, scene, block_->has_hand ? all_.seeds[i] : 0);
-  if (!put_there) return false;
-  LaneTrial& own = *put_there;
-  index_.push_back(i);
-  std::size_t ticks = 0;
-  if (const auto* given = std::get_if<Positions>(&all_.motion)) {
-    own.motion = given->position + static_cast<std::ptrdiff_t>(i) * given->trial_stride;
-    ticks = given->ticks;
-  } else {
-    double whole = 0;
-    if (const auto* recorded = std::get_if<RecordedMotion>(&all_.motion)) {
-      own.motion = *recorded;
-      whole = recorded->duration();
-    } else {
-      whole = own.motion.emplace<StrokesMotion>(strokes, all_.seeds[i]).duration();
-    }
-    const double duration = std::isnan(all_.duration) ? whole : all_.duration;
-    ticks = static_cast<std::size_t>(std::llround(duration * scene.servo.rate));
-    put_hand(lane, plant, hand, at(own, 0).position);
-  }
-  std::fill(block_->ticks.begin() + static_cast<std::ptrdiff_t>(lane), block_->ticks.end(), ticks);
-  return true;
-}
-
-const std::vector<std::size_t>& SceneTrials::run(RunScene code) {
-  code(*block_, *this);
-  return alone_;
-}
-
-void SceneTrials::prepare(std::size_t tick, std::size_t ticks) noexcept {
-  const auto* given = std::get_if<Positions>(&all_.motion);
-  for (std::size_t k = 0; k < ticks && (given || tick == 0); ++k) {  // the axis of a hand stays
-    SceneBlock::Inputs& to = block_->inputs[k];
-    to.sample_axis =
-        given ? Vector3d(given->axis + static_cast<std::ptrdiff_t>(tick + k) * given->axis_stride) : all_.axis;
-    to.sample_axis = to.sample_axis.stableNormalized();
-    to.axis = given ? to.sample_axis : to.sample_axis.stableNormalized();  // as the servo step does
-  }
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) fill(lane, tick, ticks);
-}
-
-Crossing SceneTrials::enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept {
-  return wall_of(membrane, lane).crossing(b, axis);
-}
-
-double SceneTrials::through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept {
-  return wall_of(membrane, lane).through(axis);
-}
-
-void SceneTrials::ended(std::size_t lane, bool invalid, const RunNumbers& run,
-                        std::span<const MembraneNumbers> membranes) noexcept {
-  const std::size_t i = index_[lane];
-  if (invalid) return alone_.push_back(i);
-  results_.runs[i] = run;
-  results_.runs[i].in_lanes = true;
-  std::copy(membranes.begin(), membranes.end(),
-            results_.membranes.begin() + static_cast<std::ptrdiff_t>(i * membranes.size()));
-}
-
-void SceneTrials::keep(std::size_t tick, std::size_t ticks) noexcept {
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
-    for (std::size_t k = 0; k < ticks && tick + k < block_->ticks[lane]; ++k)
-      for (std::size_t j = 0; j < 3; ++j)
-        results_.force[3 * (index_[lane] * block_->ticks[lane] + tick + k) + j] = block_->force[k][j].of[lane];
-}
-
-/// The numbers of a trial.
-struct TrialNumbers {
-  const Scene& scene;
-  const DeviceDynamics& plant;
-  const Hand& hand;
-  const Strokes& strokes;
-};
-
-/// At most block_lanes trials that are run together.
-class SceneTrials final : public LaneTrials, public RunOwner {
- public:
-  /// stop: ends the run.
-  SceneTrials(const SceneBatch& all, SceneResults& results, const std::atomic<bool>& stop);
-
-  /// Adds trial i. Returns false, and adds nothing, if lanes cannot compute it beside the first one.
-  bool add(std::size_t i, const TrialNumbers& numbers);
-  /// Runs all trials. Returns those that must be run again alone, because they came near a fault.
-  const std::vector<std::size_t>& run(RunScene code);
-
-  void prepare(std::size_t tick, std::size_t ticks) noexcept override;
-  Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept override;
-  double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept override;
-  void ended(std::size_t lane, bool invalid, const RunNumbers& run,
-             std::span<const MembraneNumbers> membranes) noexcept override;
-  void keep(std::size_t tick, std::size_t ticks) noexcept override;
-  bool stopped() const noexcept override { return stop_; }
-
- private:
-  const SceneBatch& all_;
-  SceneResults& results_;
-  const std::atomic<bool>& stop_;
-  std::vector<std::size_t> index_;  ///< the number of each lane's trial
-  std::vector<std::size_t> alone_;
-};
-
 namespace {
 
 /// One thread's own scene, plant, hand and strokes, in which it sets the numbers of a trial.
@@ -169,6 +59,12 @@ class Trial {
     return found;
   }
 
+  /// whole: the duration of the motion, s.
+  std::size_t ticks(double whole) const noexcept {
+    return static_cast<std::size_t>(
+        std::llround((std::isnan(all_.duration) ? whole : all_.duration) * scene.servo.rate));
+  }
+
   Scene scene;
   DeviceDynamics plant;
   Hand hand;
@@ -185,6 +81,88 @@ class Trial {
 
   const SceneBatch& all_;
   std::vector<double*> places_;
+};
+
+/// At most block_lanes trials that are run together.
+class SceneTrials final : public LaneTrials, public RunOwner {
+ public:
+  /// stop: ends the run.
+  SceneTrials(const SceneBatch& all, SceneResults& results, const std::atomic<bool>& stop)
+      : LaneTrials(!std::holds_alternative<Positions>(all.motion)), all_(all), results_(results), stop_(stop) {
+    block_->keeps_force = results.force != nullptr;
+    alone_.reserve(block_lanes);
+  }
+
+  /// Adds trial i. Returns false, and adds nothing, if lanes cannot compute it beside the first one.
+  bool add(std::size_t i, const Trial& trial) {
+    const std::size_t lane = lanes_.size();
+    LaneTrial* const put_there = put(lane, trial.scene, block_->has_hand ? all_.seeds[i] : 0);
+    if (!put_there) return false;
+    LaneTrial& own = *put_there;
+    index_.push_back(i);
+    std::size_t ticks = 0;
+    if (const auto* given = std::get_if<Positions>(&all_.motion)) {
+      own.motion = given->position + static_cast<std::ptrdiff_t>(i) * given->trial_stride;
+      ticks = given->ticks;
+    } else {
+      if (const auto* recorded = std::get_if<RecordedMotion>(&all_.motion)) {
+        own.motion = *recorded;
+        ticks = trial.ticks(recorded->duration());
+      } else {
+        ticks = trial.ticks(own.motion.emplace<StrokesMotion>(trial.strokes, all_.seeds[i]).duration());
+      }
+      put_hand(lane, trial.plant, trial.hand, at(own, 0).position);
+    }
+    std::fill(block_->ticks.begin() + static_cast<std::ptrdiff_t>(lane), block_->ticks.end(), ticks);
+    return true;
+  }
+
+  /// Runs all trials. Returns those that must be run again alone, because they came near a fault.
+  const std::vector<std::size_t>& run(RunScene code) {
+    code(*block_, *this);
+    return alone_;
+  }
+
+  void prepare(std::size_t tick, std::size_t ticks) noexcept override {
+    const auto* given = std::get_if<Positions>(&all_.motion);
+    for (std::size_t k = 0; k < ticks && (given || tick == 0); ++k) {  // the axis of a hand stays
+      SceneBlock::Inputs& to = block_->inputs[k];
+      to.sample_axis =
+          given ? Vector3d(given->axis + static_cast<std::ptrdiff_t>(tick + k) * given->axis_stride) : all_.axis;
+      to.sample_axis = to.sample_axis.stableNormalized();
+      to.axis = given ? to.sample_axis : to.sample_axis.stableNormalized();  // as the servo step does
+    }
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) fill(lane, tick, ticks);
+  }
+  Crossing enter(std::size_t membrane, std::size_t lane, const Vector3d& b, const Vector3d& axis) noexcept override {
+    return wall_of(membrane, lane).crossing(b, axis);
+  }
+  double through(std::size_t membrane, std::size_t lane, const Vector3d& axis) noexcept override {
+    return wall_of(membrane, lane).through(axis);
+  }
+  void ended(std::size_t lane, bool invalid, const RunNumbers& run,
+             std::span<const MembraneNumbers> membranes) noexcept override {
+    const std::size_t i = index_[lane];
+    if (invalid) return alone_.push_back(i);
+    results_.runs[i] = run;
+    results_.runs[i].in_lanes = true;
+    std::copy(membranes.begin(), membranes.end(),
+              results_.membranes.begin() + static_cast<std::ptrdiff_t>(i * membranes.size()));
+  }
+  void keep(std::size_t tick, std::size_t ticks) noexcept override {
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
+      for (std::size_t k = 0; k < ticks && tick + k < block_->ticks[lane]; ++k)
+        for (std::size_t j = 0; j < 3; ++j)
+          results_.force[3 * (index_[lane] * block_->ticks[lane] + tick + k) + j] = block_->force[k][j].of[lane];
+  }
+  bool stopped() const noexcept override { return stop_; }
+
+ private:
+  const SceneBatch& all_;
+  SceneResults& results_;
+  const std::atomic<bool>& stop_;
+  std::vector<std::size_t> index_;  ///< the number of each lane's trial
+  std::vector<std::size_t> alone_;
 };
 
 class Runner {
@@ -215,7 +193,7 @@ class Runner {
     std::vector<std::size_t> alone;
     for (std::size_t i = from; i < to; ++i) {
       trial_.set(i);
-      if (!together.add(i, {trial_.scene, trial_.plant, trial_.hand, trial_.strokes})) alone.push_back(i);
+      if (!together.add(i, trial_)) alone.push_back(i);
     }
     if (together.size() > 0) {
       const auto& again = together.run(code);
@@ -229,8 +207,7 @@ class Runner {
   template <typename Motion>
   void experiment(std::size_t i, Motion motion, double whole, SceneSummary& summary) {
     Experiment<Motion> one(trial_.scene, std::move(motion), all_.axis, trial_.plant, trial_.hand, all_.seeds[i]);
-    const double duration = std::isnan(all_.duration) ? whole : all_.duration;
-    const auto ticks = static_cast<std::size_t>(std::llround(duration * trial_.scene.servo.rate));
+    const std::size_t ticks = trial_.ticks(whole);
     for (std::size_t k = 0; k < ticks && !work_.stop; ++k) {
       const Snapshot& s = one.step();
       summary.add(s);
