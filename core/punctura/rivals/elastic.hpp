@@ -1,4 +1,4 @@
-// Rivals that resist by elasticity until the tissue is punctured, and by friction behind the puncture.
+// Rivals that resist until the tissue is punctured, and by friction behind the puncture.
 #pragma once
 
 #include <algorithm>
@@ -206,5 +206,134 @@ struct Gordon : BehindPuncture {
   }
 };
 static_assert(Punctures<Gordon>);
+
+/// Okamura et al. 2004: f = a1 z + a2 z^2 to the puncture. From then on a friction of (C + b |v|) z, by a Karnopp
+/// model, and a constant cutting force while the tip is deeper than ever before.
+struct Okamura {
+  static constexpr const char* name = "okamura";
+  static constexpr const char* title = "Okamura 2004";
+  static constexpr const char* source =
+      "Okamura, Simone, O'Leary: Force modeling for needle insertion into soft tissue. IEEE TBME 51(10), 2004";
+
+  double linear = 50;          ///< a1, N/m
+  double quadratic = 5e3;      ///< a2, N/m^2
+  double puncture = 8e-3;      ///< m
+  double cutting = 0.5;        ///< N
+  double friction_slope = 12;  ///< C, N/m
+  double viscous_slope = 0;    ///< b, N s/m^2
+  double out_ratio = 1;        ///< friction outwards over friction inwards
+  double dead_band = 0.5e-3;   ///< half the width of Karnopp's dead band, m/s
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<Okamura>;
+    return std::array{
+        N{&Okamura::linear, "linear", "N/m", 0, 1e5, "a1, linear stiffness to the puncture"},
+        N{&Okamura::quadratic, "quadratic", "N/m^2", 0, 1e8, "a2, quadratic stiffness to the puncture"},
+        N{&Okamura::puncture, "puncture", "m", 1e-5, 0.2, "depth of the puncture below the surface"},
+        N{&Okamura::cutting, "cutting", "N", 0, 100, "cutting force while the tip is deeper than ever before"},
+        N{&Okamura::friction_slope, "friction_slope", "N/m", 0, 2000, "C, friction per inserted length"},
+        N{&Okamura::viscous_slope, "viscous_slope", "N s/m^2", 0, 1e5, "b, viscous friction per inserted length",
+          Shows::speeds},
+        N{&Okamura::out_ratio, "out_ratio", "-", 0, 10, "friction outwards over friction inwards", Shows::withdrawal},
+        N{&Okamura::dead_band, "dead_band", "m/s", 0, 0.1, "velocity below which friction holds", Shows::setting},
+    };
+  }
+
+  struct State {
+    bool punctured = false;
+    double deepest = 0;  ///< m
+    DryFriction friction{};
+
+    static void archive(auto& self, auto& state) { state.fields(self.punctured, self.deepest, self.friction); }
+  };
+
+  double load(const State&, double depth) const noexcept { return depth; }
+
+  double resistance(State& state, double depth, double velocity, double) const noexcept {
+    const bool cuts = depth >= state.deepest;
+    state.deepest = std::max(state.deepest, depth);
+    if (!state.punctured && depth < puncture) return (linear + quadratic * depth) * depth;
+    state.punctured = true;
+    const double level = friction_slope * depth, viscous = viscous_slope * depth * velocity;
+    const bool slides = velocity > dead_band || velocity < -dead_band;
+    const double in = level + (cuts || !slides ? cutting : 0);
+    return state.friction.step(in, out_ratio * level, velocity, dead_band) + (slides ? viscous : 0);
+  }
+};
+static_assert(Punctures<Okamura>);
+
+/// A nonlinear Kelvin solid: f = (1 + r) g(z) at once and g(z) after a long time, with g(z) = k z^n. It breaks when the
+/// stored energy reaches `puncture`. A faster needle stores more energy at the same depth, so it breaks the tissue
+/// earlier. Friction behind it.
+///
+/// The paper compares the energy release rate of the crack with the toughness. Here the stored energy takes its place,
+/// because one trace does not show the size of the crack.
+struct MahvashDupont {
+  static constexpr const char* name = "mahvash_dupont";
+  static constexpr const char* title = "rupture (Mahvash, Dupont 2010)";
+  static constexpr const char* source =
+      "Mahvash, Dupont: Mechanics of dynamic needle insertion into a biological material. IEEE TBME 57(4), 2010";
+
+  double at_1_mm = 0.05;       ///< k (1 mm)^n: the slow elastic force at a depth of 1 mm, N
+  double exponent = 1.5;       ///< n
+  double ratio = 0.3;          ///< r, force of the branch that relaxes over the slow force
+  double relaxation = 1;       ///< s
+  double puncture = 1e-3;      ///< stored energy at the rupture, J
+  double friction = 0.3;       ///< N
+  double friction_slope = 10;  ///< N/m
+  double out_ratio = 1;        ///< friction outwards over friction inwards
+  double dead_band = 0.5e-3;   ///< m/s
+
+  static constexpr auto numbers() noexcept {
+    using N = RivalNumber<MahvashDupont>;
+    using M = MahvashDupont;
+    return std::array{
+        N{&M::at_1_mm, "at_1_mm", "N", 0, 100, "slow elastic force at a depth of 1 mm"},
+        N{&M::exponent, "exponent", "-", 0.2, 8, "n, exponent of the depth"},
+        N{&M::ratio, "ratio", "-", 0, 20, "r, force that relaxes over the slow force", Shows::speeds},
+        N{&M::relaxation, "relaxation", "s", 0.02, 100, "relaxation time", Shows::speeds},
+        N{&M::puncture, "puncture", "J", 1e-9, 10, "stored energy at the rupture"},
+        N{&M::friction, "friction", "N", 0, 100, "friction behind the puncture, constant part"},
+        N{&M::friction_slope, "friction_slope", "N/m", 0, 2000, "friction behind the puncture, per depth"},
+        N{&M::out_ratio, "out_ratio", "-", 0, 10, "friction outwards over friction inwards", Shows::withdrawal},
+        N{&M::dead_band, "dead_band", "m/s", 0, 0.1, "velocity below which friction holds", Shows::setting},
+    };
+  }
+
+  struct State {
+    bool punctured = false;
+    double slow = 0;      ///< g at the last call, N
+    double relaxing = 0;  ///< force of the branch that relaxes, N
+    double depth = 0;     ///< m
+    double energy = 0;    ///< stored, J
+    DryFriction friction{};
+
+    static void archive(auto& self, auto& state) {
+      state.fields(self.punctured, self.slow, self.relaxing, self.depth, self.energy, self.friction);
+    }
+  };
+
+  double load(const State& state, double) const noexcept { return state.energy; }
+
+  double resistance(State& state, double depth, double velocity, double period) const noexcept {
+    if (!state.punctured) {
+      const double slow = at_1_mm * std::pow(depth * 1e3, exponent);
+      // The Maxwell branch, exact for a force g that changes linearly over the period.
+      const double x = period / relaxation, gone = -std::expm1(-x), share = x > 1e-6 ? gone / x : 1 - x / 2;
+      const double relaxing = state.relaxing * (1 - gone) + ratio * (slow - state.slow) * share;
+      // Stored: the integral of g, and of the branch's spring, whose stiffness is that of r g at this depth.
+      const double spring = ratio * exponent * slow / std::max(depth, 1e-9);
+      state.energy = slow * depth / (exponent + 1) + (spring > 0 ? relaxing * relaxing / (2 * spring) : 0);
+      state.slow = slow;
+      state.relaxing = relaxing;
+      state.depth = depth;
+      if (state.energy < puncture) return std::max(0.0, slow + relaxing);
+      state.punctured = true;
+    }
+    const double level = friction + friction_slope * depth;
+    return state.friction.step(level, out_ratio * level, velocity, dead_band);
+  }
+};
+static_assert(Punctures<MahvashDupont>);
 
 }  // namespace punctura

@@ -16,8 +16,6 @@
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/rivals/elastic.hpp"
 #include "punctura/rivals/friction_alone.hpp"
-#include "punctura/rivals/mahvash_dupont.hpp"
-#include "punctura/rivals/okamura.hpp"
 #include "punctura/scene/build.hpp"
 
 namespace punctura {
