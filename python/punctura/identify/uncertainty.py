@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
-from punctura.identify.noise import effective_samples
+from punctura.identify.noise import autocorrelation
 from punctura.trace.samples import equal_runs, rounding
 
 Array = NDArray[np.float64]
@@ -18,14 +18,16 @@ class Uncertainty:
     """The covariance of a fit's coordinates, (p, p), for noise whose correlation the residuals show.
 
     limit: by how many variances the squares rise to the bound of a 95 % interval. It is the square of Student's t,
-    because the variance is estimated, too, from the m - p spare ones of m independent samples.
+    because the variance is estimated, too, from m - p squares. m: so many independent ones tell as much of the variance
+    as the n correlated ones, n / (1 + 2 sum rho^2) (Bartlett 1946).
     """
 
     def __init__(self, fit: Fit) -> None:
         from scipy.special import stdtrit
 
         n, p = fit.jacobian.shape
-        self.limit = float(stdtrit(max(effective_samples(fit.residuals, p) - p, 1.0), 0.975)) ** 2
+        squares = n / (1 + 2 * float((autocorrelation(fit.residuals, p)[1:] ** 2).sum()))
+        self.limit = float(stdtrit(max(squares - p, 1.0), 0.975)) ** 2
         self.fit = fit
         self.variance = fit.sse / max(n - p, 1)
         gram = fit.jacobian.T @ fit.jacobian
