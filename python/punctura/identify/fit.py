@@ -218,7 +218,8 @@ def fit(
     If the pop of a wall enters or leaves the trace on the way, one more search has its other coordinate (see Free).
 
     A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
-    Raises TraceError if the last search does not end, or creeps where the squares are above `hopeless`, N^2.
+    Raises TraceError if the last search does not end, creeps where the squares are above `hopeless`, N^2, or ends where
+    the derivatives overflow, as those of a steep grip do.
     """
     free = misfit.free(names, start)
     u = free.coordinates(start)
@@ -243,7 +244,10 @@ def fit(
             break
         if i == rounds - 1:
             raise TraceError(f"the fit did not end after {count} evaluations: {message}")
-    return Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
+    found = Fit(misfit, free, u, misfit.residuals(free, u), misfit.jacobian(free, u), count)
+    if not np.isfinite(found.jacobian).all():
+        raise TraceError(f"the derivatives of the model overflow where the fit ended, after {count} evaluations")
+    return found
 
 
 def shortly(misfit: Misfit, free: Free, u: Array, evaluations: int, limit: float) -> Fit | None:

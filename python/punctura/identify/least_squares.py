@@ -37,7 +37,8 @@ def least_squares(
     squares, lengths, radius, count = float(left @ left), np.zeros(len(at)), 0.0, 1
     while True:
         by_at = jacobian(at)
-        slope, gram = by_at.T @ left, by_at.T @ by_at
+        with np.errstate(over="ignore", invalid="ignore"):
+            slope, gram = by_at.T @ left, by_at.T @ by_at
         if not np.isfinite(gram).all():  # far from the data, a steep grip overflows
             return at, count, False
         lengths = np.maximum(lengths, np.sqrt(np.diag(gram)))

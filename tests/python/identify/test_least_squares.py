@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from punctura.identify import identify
+from punctura.identify.fit import fit
 from punctura.identify.least_squares import least_squares
+from punctura.trace import TraceError
 from scipy.optimize import least_squares as of_scipy
+from traces import NEEDLE, trace
 
 OPEN = np.full(2, np.inf)
 
@@ -40,6 +44,13 @@ def test_derivatives_that_overflow_end_the_search_where_it_is():
     start = np.array([0.0, 0.0])
     found, _, ended = least_squares(valley, lambda at: np.full((2, 2), np.nan), start, (-OPEN, OPEN), 1e-9, 1e-9, 50)
     assert not ended and (found == start).all()
+
+
+def test_a_fit_that_ends_where_derivatives_overflow_is_an_error(monkeypatch):
+    found = identify(trace(noise=0.01, seed=2), NEEDLE, membranes=1).fit
+    monkeypatch.setattr(type(found.misfit), "jacobian", lambda *given: np.full(found.jacobian.shape, np.inf))
+    with pytest.raises(TraceError, match="overflow where the fit ended"):
+        fit(found.misfit, found.free.names, found.parameters)
 
 
 def test_what_has_no_effect_stays():
