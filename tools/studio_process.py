@@ -92,7 +92,7 @@ class StudioProcess:
         """Ends the studio like Ctrl-C. Returns the exit status."""
         if self.running:
             self._process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
-        return self._process.wait(600)
+        return self._process.wait(120)
 
     def __enter__(self) -> StudioProcess:
         return self
