@@ -58,7 +58,7 @@ def serve(path: str) -> None:
         listener.bind(path)
         listener.listen(100)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for the guards
-        signal.signal(signal.SIGINT, signal.default_int_handler)  # tests that a script starts in the background ignore it
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a script's background ignores it
         print("ready", flush=True)
         while True:
             if sys.stdin in select.select([listener, sys.stdin], [], [])[0]:
