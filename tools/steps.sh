@@ -169,11 +169,11 @@ step_cpp() {
 }
 check_isa() { [ "$(uname -m)" != x86_64 ] || tools/check_isa.sh "$(of_the_wheel)"; }
 
-# Compiles runtime and tests with Clang, for its warnings. Runs the tests under sanitizers with fewer random cases and
-# without numbers whose code other tests reach, because sanitizers are slow. Without AVX: that code differs from the
-# usual one in the width of a vector only, and -O2 with a sanitizer compiles slowly. cpp tests it.
+# Compiles the runtime, tests and each header alone with Clang, for its warnings. Runs the tests under sanitizers with
+# fewer random cases and without numbers whose code other tests reach, because sanitizers are slow. Without AVX: that
+# code differs from the usual one in the width of a vector only, and -O2 with a sanitizer compiles slowly. cpp tests it.
 step_asan() {
-  compile asan core_tests runtime_tests || return
+  compile asan core_tests runtime_tests punctura_headers || return
   export UBSAN_OPTIONS=print_stacktrace=1 PUNCTURA_CASES="${PUNCTURA_CASES:-14}"
   both_tests asan --test-suite-exclude=numbers
 }
@@ -296,7 +296,7 @@ step_examples() {
 
 # The steps below run only by name.
 
-# Slow, and its findings are a matter of taste. Compiles each header alone, too.
+# Slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
 
 # What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases.
