@@ -35,7 +35,7 @@ def autocorrelation(residuals: Array, parameters: int = 0) -> Array:
 
 
 def effective_samples(residuals: Array, parameters: int = 0) -> float:
-    """The number of independent samples that tell as much as these correlated ones; at most n, at least 2."""
+    """The number of independent samples that tell as much of a mean as these correlated ones; at least 2, at most n."""
     rho = autocorrelation(residuals, parameters)
     inflation = max(1.0, float(1 + 2 * rho[1:].sum()))
     return max(2.0, len(residuals) / inflation)
