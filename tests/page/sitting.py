@@ -19,7 +19,7 @@ from chromium import launch
 from person import opened
 from playwright.sync_api import Page, expect, sync_playwright
 from punctura.perception import Session, load_protocol, read_session
-from punctura.perception.course import Course
+from punctura.perception.course import Course, Line
 from studio_process import StudioProcess
 
 PROTOCOL = """
@@ -79,16 +79,16 @@ def stroke(page: Page, most: int = 20) -> None:
             return
 
 
-def on_disk(folder: Path) -> list[dict]:
+def on_disk(folder: Path) -> list[Line]:
     """The answered trials, which are those that the protocol has planned; each has its recording."""
     path = folder / "people" / "P01.jsonl"
-    lines = read_session(path)[1:] if path.exists() else []
+    lines = read_session(path)[1] if path.exists() else []
     course = Course(load_protocol(folder / "mine.toml"), 0)
     for line in lines:
         trial = course.next()
-        assert trial and (line["trial"], line["level"]) == (trial.number, trial.shown.level)
-        assert all((folder / "people" / name).is_file() for name in line["recordings"])
-        course.add(trial, line["answer"])
+        assert trial and (line.trial, line.level) == (trial.number, trial.shown.level)
+        assert all((folder / "people" / name).is_file() for name in line.recordings)
+        course.add(trial, line.answer)
     return lines
 
 
@@ -105,7 +105,7 @@ def act(page: Page) -> int:
 
 def main(kills: int = 25, seed: int = 1) -> None:
     draw, folder = random.Random(seed), Path(tempfile.mkdtemp())
-    answered(folder, 0)
+    (folder / "mine.toml").write_text(PROTOCOL)  # no session: the page asks for consent
     with sync_playwright() as playwright:
         browser = launch(playwright)
         studio = sitting(folder)
@@ -119,6 +119,7 @@ def main(kills: int = 25, seed: int = 1) -> None:
             for kill in range(kills):
                 if kill:
                     page.locator(".stage-sentence", has_text=BEGUN).wait_for()
+                before = len(on_disk(folder))
                 killer = threading.Timer(draw.uniform(0.0, longest), studio.kill)
                 killer.start()
                 answers = [act(page)]
@@ -127,6 +128,7 @@ def main(kills: int = 25, seed: int = 1) -> None:
                 kept = len(on_disk(folder))
                 assert kept >= max(answers)
                 print(f"kill {kill + 1}: {kept} of {TRIALS} trials are on the disk", flush=True)
+                longest *= 1.5 if kept == before else 0.8  # so every second kill comes after an answer
                 studio = sitting(folder, studio.port)
             while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
                 act(page)

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from punctura.perception.course import Kind, Line
+
 COMPARES = """
 title = "Two intervals around a reference"
 question = "Which one fell more?"
@@ -74,6 +76,11 @@ YES_N = (
 def with_levels(text: str, levels: Iterable[float]) -> str:
     """The protocol with other levels."""
     return re.sub(r"levels = \[.*\]", f"levels = {[round(float(one), 6) for one in levels]}", text)
+
+
+def line(level: float, position: int, answer: str, kind: Kind = "trial") -> Line:
+    """An answer to a level of the scene: nothing was felt."""
+    return Line(trial=0, block=0, kind=kind, level=level, position=position, answer=answer, felt=())
 
 
 def written(folder: Path, text: str) -> Path:

@@ -38,9 +38,11 @@ Seed = Annotated[int, typer.Option(min=0, help="Of the observers.")]
 @command.command("list")
 def list_protocols(as_json: Json = False) -> None:
     """Lists the ready protocols."""
-    from punctura.ready_protocols import protocol_files, protocol_titles
+    from punctura.files.toml import read_tables
+    from punctura.ready_protocols import protocol_files
 
-    titles, files = protocol_titles(), protocol_files()
+    files = protocol_files()
+    titles = {name: read_tables(file, "protocol")["title"] for name, file in files.items()}
     if as_json:
         typer.echo(json.dumps([{"name": n, "title": titles[n], "file": str(files[n])} for n in titles], indent=2))
         return
@@ -56,7 +58,7 @@ def check(protocol: File, as_json: Json = False) -> None:
 
     loaded = load_protocol(protocol)
     trials = len(Course(loaded, 0))
-    levels = [{"level": one.level, **asdict(one.felt)} for one in loaded.stimuli]
+    levels = [{"level": one.level, **dict(one.felt)} for one in loaded.stimuli]
     if as_json:
         typer.echo(
             json.dumps({"protocol": loaded.name, "unit": loaded.unit, "trials": trials, "levels": levels}, indent=2)
@@ -160,11 +162,11 @@ def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
 
 
 def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
-    from punctura.perception.report import json_of, write_report
+    from punctura.perception import write_report
 
     found = write_report(protocol, folder)
     if as_json:
-        typer.echo(json_of(found), nl=False)
+        typer.echo(found.model_dump_json(indent=1))
         return
     report = (folder / "report.md").read_text(encoding="utf-8")
     typer.echo(re.split(r"\n(?:## |!\[)", report, maxsplit=1)[0].rstrip())  # without d' at each level and the picture

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from pydantic import BaseModel
 from scipy.special import betaincinv, chdtrc, chdtri, ndtr, ndtri, stdtrit, xlogy  # scipy.stats takes long
 
-from punctura.perception.course import counted
+from punctura.perception.course import Line, counted
 from punctura.perception.load import LEAST
 from punctura.perception.protocol import Protocol
 from punctura.perception.psychometric import Array, Belief, posterior
-from punctura.results import JsonObject
 
 LEVEL = 0.95  # of all intervals
 SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
@@ -38,9 +37,8 @@ class Estimate(NamedTuple):
     high: float
 
 
-@dataclass(frozen=True)
-class Answers:
-    """The answered trials of one participant, without practice: (n,) each."""
+class Answers(NamedTuple):
+    """Answered trials of one participant: (n,) each."""
 
     level: Array  # as planned
     x: Array  # as felt, if the variable is a felt quantity; otherwise as planned
@@ -48,13 +46,10 @@ class Answers:
     right: Array  # 1 for a right answer or yes, a rating, a setting; NaN where none is right
     block: Array
     side: Array  # 1: the comparison was in the first interval; -1: in another one
-    catch: Array  # of the catch trials: 1 for a right answer, or for a "yes"
-    caught: Array  # (n, 3) of the catch trials: x, counted and side
-    reference: float  # the level of the other intervals, as felt if the variable is a felt quantity; NaN without one
+    reference: Array  # the level of the other intervals, felt or planned as x; NaN without one
 
 
-@dataclass
-class Detection:
+class Detection(BaseModel):
     """Answers at one level by the theory of signal detection."""
 
     level: float
@@ -63,8 +58,7 @@ class Detection:
     criterion: Estimate  # of yes, or of the first interval
 
 
-@dataclass
-class Person:
+class Person(BaseModel):
     """The result of one participant. Levels are in the unit of the protocol's variable."""
 
     participant: str
@@ -77,14 +71,13 @@ class Person:
     first: Estimate | None = None  # share of "first" if two intervals do not differ: the bias
     slope: Estimate | None = None  # of ratings: points for each unit of the variable
     reason: str = ""  # why there is no threshold
-    detection: list[Detection] = field(default_factory=list)  # one for each level
-    by_block: list[float | None] = field(default_factory=list)  # share of right answers or yes; mean rating or setting
+    detection: list[Detection] = []  # one for each level
+    by_block: list[float | None] = []  # share of right answers or yes; mean rating or setting
     catch_trials: int = 0  # that were answered
     catch_counted: int = 0  # of them, how many with the answer that counts
 
 
-@dataclass
-class Analysis:
+class Analysis(BaseModel):
     """All participants, and their means with the interval of Student's t."""
 
     protocol: str  # its name
@@ -98,70 +91,60 @@ class Analysis:
     reason: str = ""  # why there are no means
 
 
-def answers_of(protocol: Protocol, lines: Sequence[Mapping[str, object]]) -> Answers:
-    """The answers of a session's lines, without its header."""
-    rows: list[tuple[float, ...]] = []
-    catch, caught, references = [], [], []
+def answers_of(protocol: Protocol, lines: Sequence[Line]) -> tuple[Answers, Answers]:
+    """The trials without practice, and the catch trials."""
+    rows: dict[str, list[tuple[float, ...]]] = {"trial": [], "catch": [], "practice": []}
     for line in lines:
-        data: JsonObject = dict(line)
-        hit = float(data["answer"] if protocol.rates else counted(protocol, data["position"], data["answer"]))
+        hit = float(line.answer if protocol.rates else counted(protocol, line.position, line.answer))
         if protocol.adjusts and hit:
             continue  # no setting yet
-        planned, (felt, other) = float(data["level"]), felt_level(protocol, data)
-        right = float("nan")
-        if not protocol.compares:
-            right = felt if protocol.adjusts else hit
-        elif planned != protocol.reference:
-            right = float((hit == 1) == ((planned > (protocol.reference or 0.0)) == protocol.rises))
-        where = 1.0 if data["position"] == 0 else -1.0
-        if data["kind"] == "catch":
-            catch.append(right)
-            caught.append((felt, hit, where))
-        elif data["kind"] == "trial":
-            references.append(other)
-            rows.append((planned, felt, hit, right, float(data["block"]), where))
-    level, x, hits, rights, block, side = np.array(rows, np.float64).reshape(-1, 6).T
-    reference = float(np.mean(references)) if references else np.nan
-    others = np.array(caught, np.float64).reshape(-1, 3)
-    return Answers(level, x, hits, rights, block, side, np.array(catch), others, reference)
+        felt, reference = felt_level(protocol, line)
+        right = felt if protocol.adjusts else hit
+        if protocol.compares:
+            more = (line.level > (protocol.reference or 0.0)) == protocol.rises
+            right = float("nan") if line.level == protocol.reference else float((hit == 1) == more)
+        side = 1.0 if line.position == 0 else -1.0
+        rows[line.kind].append((line.level, felt, hit, right, float(line.block), side, reference))
+    trials, catch = (Answers(*np.array(rows[kind], np.float64).reshape(-1, 7).T) for kind in ("trial", "catch"))
+    return trials, catch
 
 
-def felt_level(protocol: Protocol, line: JsonObject) -> tuple[float, float]:
+def felt_level(protocol: Protocol, line: Line) -> tuple[float, float]:
     """The level as it was felt, against the reference intervals of the same trial, at the reference's level; and the
     level of these intervals."""
     reference = float("nan") if protocol.reference is None else protocol.reference
     if not protocol.in_newtons:
-        return float(line["level"]), reference
-    felt = [float(one[protocol.quantity]) for one in line["felt"]]
-    mine = felt.pop(int(line["position"]))
+        return line.level, reference
+    felt = [float(getattr(one, protocol.quantity)) for one in line.felt]
+    mine = felt.pop(line.position)
     if not felt:
         return mine, reference
     return reference + mine - sum(felt) / len(felt), sum(felt) / len(felt)
 
 
-def belief_of(protocol: Protocol, answers: Answers) -> Belief:
+def belief_of(protocol: Protocol, found: Answers, catch: Answers) -> Belief:
     """The posterior of the psychometric function. Needs answers of both kinds."""
-    x, hits, side = answers.x, answers.counted, answers.side
-    catch = float(answers.catch.sum()), len(answers.catch)
-    if protocol.file.task != "yes_no":  # a catch trial is one of another level: nothing makes it clear to everybody
-        catch = 0.0, 0
-        x, hits, side = np.vstack([np.column_stack([x, hits, side]), answers.caught]).T
+    x, hits, side, alarms = found.x, found.counted, found.side, (0.0, 0.0)
+    if protocol.file.task == "yes_no":
+        alarms = float(catch.counted.sum()), float(len(catch.x))
+    else:  # a catch trial is one of another level: nothing makes it clear to everybody
+        x, hits, side = np.append(x, catch.x), np.append(hits, catch.counted), np.append(side, catch.side)
     if protocol.in_newtons:  # hundreds of different numbers take long: each becomes the mean of those near it
         step = (max(protocol.levels) - min(protocol.levels)) / 40
         _, group = np.unique(np.round(x / step), return_inverse=True)
         x = (np.bincount(group, x) / np.bincount(group))[group]
-    return posterior(protocol.shape, protocol.levels, x, hits, side, catch)
+    return posterior(protocol.shape, protocol.levels, x, hits, side, alarms)
 
 
-def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, object]]) -> Person:
+def person(protocol: Protocol, participant: str, lines: Sequence[Line]) -> Person:
     """The result of one participant. It has a reason in place of a threshold that the answers do not determine."""
-    found = answers_of(protocol, lines)
-    result = Person(participant, len(found.level))
-    blocks = np.unique(found.block)
-    result.by_block = [_share(found.right[found.block == block]) for block in blocks]
-    result.catch_trials, result.catch_counted = len(found.catch), int(found.catch.sum())
-    result.detection = _detection(protocol, found)
-    result.reason = _too_little(protocol, found)
+    found, catch = answers_of(protocol, lines)
+    judged = [found.right[(found.block == block) & np.isfinite(found.right)] for block in np.unique(found.block)]
+    result = Person(
+        participant=participant, trials=len(found.x), detection=_detection(protocol, found, catch),
+        by_block=[float(right.mean()) if len(right) else None for right in judged],
+        catch_trials=len(catch.x), catch_counted=int(catch.right.sum()), reason=_too_little(protocol, found),
+    )  # fmt: skip
     if result.reason:
         return result
     if protocol.rates:
@@ -169,18 +152,16 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Mapping[str, ob
         result.slope = _slope(*((np.log(one[found.x > 0]) if log else one) for one in (found.x, found.counted)))
     elif protocol.adjusts:
         result.threshold, result.jnd = _settings(protocol, found)
-        result.weber = _weber(result.jnd, found.reference)
     else:
-        _fit(protocol, found, result)
+        _fit(protocol, found, catch, result)
+    reference = abs(float(found.reference.mean()))
+    if result.jnd and reference > 0:
+        result.weber = Estimate(*(one / reference for one in result.jnd))
     return result
 
 
-def _weber(jnd: Estimate | None, reference: float) -> Estimate | None:
-    return Estimate(*(one / abs(reference) for one in jnd)) if jnd and abs(reference) > 0 else None
-
-
-def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
-    belief = belief_of(protocol, found)
+def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> None:
+    belief = belief_of(protocol, found, catch)
     grid, shape = belief.grid, protocol.shape
     ends = [belief.mean(np.asarray(beyond, np.float64)) for beyond in (grid.place < grid.low, grid.place > grid.high)]
     outside = sum(ends)
@@ -206,11 +187,10 @@ def _fit(protocol: Protocol, found: Answers, result: Person) -> None:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
         result.jnd = _estimate(belief, QUARTER * grid.width)
-        away = np.abs(np.append(found.x, found.caught[:, 0]) - result.threshold.value) * QUARTER / result.jnd.value
+        away = np.abs(np.append(found.x, catch.x) - result.threshold.value) * QUARTER / result.jnd.value
         lapses = result.lapse.high > MANY_LAPSES or (away > CLEAR).sum() < LEAST_CLEAR  # would look like noise
         if lapses or belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
             result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
-    result.weber = _weber(result.jnd, found.reference)
 
 
 def _misfit(belief: Belief, found: Answers) -> float:
@@ -234,30 +214,26 @@ def _reversed(protocol: Protocol, found: Answers) -> bool:
     return bool(together * np.sqrt(len(hits)) < -REVERSED * found.x.std() * hits.std())
 
 
-def _share(right: Array) -> float | None:
-    judged = right[np.isfinite(right)]
-    return float(judged.mean()) if len(judged) else None
-
-
 def _too_little(protocol: Protocol, found: Answers) -> str:
-    least = LEAST[protocol.file.method]
+    """Why there is no number, before any fit; empty if there may be one."""
+    least, shown = LEAST[protocol.file.method], np.unique(found.level)
     if len(found.level) < least:
         return f"{len(found.level)} answers are too few for a threshold: {least} are needed"
-    share = float(found.counted.mean())
     if protocol.rates:
         same = [what for what, one in (("rating", found.counted), ("level", found.x)) if np.ptp(one) == 0]
         return f"every {same[0]} was the same, so there is no slope" if same else ""
     if protocol.adjusts:
-        if np.isin(found.level, (protocol.levels[0], protocol.levels[-1])).any():
+        if np.isin((protocol.levels[0], protocol.levels[-1]), shown).any():
             return "settings reach the end of the levels: show more"
-        return "" if np.ptp(found.level) else "every setting was the same: make the steps between the levels smaller"
+        return "every setting was the same: make the steps between the levels smaller" if len(shown) < 2 else ""
     if _reversed(protocol, found):
         return "the answers go against the level: were two answers exchanged, or was the question misunderstood?"
-    if share in (0.0, 1.0):
+    if np.ptp(found.counted) == 0:
         what = {"yes_no": ("no", "yes")}.get(protocol.file.task, ("wrong", "right"))
         what = ("the reference", "the comparison") if protocol.compares else what
-        return f"every answer was {what[int(share)]}: the levels are too easy or too hard, so there is no threshold"
-    if not protocol.shape.one_sided and len(np.unique(found.level)) < 2:
+        every = what[int(found.counted[0])]
+        return f"every answer was {every}: the levels are too easy or too hard, so there is no threshold"
+    if not protocol.shape.one_sided and len(shown) < 2:
         return "only one level was shown, so there is no threshold"
     return ""
 
@@ -287,32 +263,31 @@ def _estimate(belief: Belief, values: Array) -> Estimate:
     return Estimate(*map(float, belief.quantiles(values, (0.5, *SHARES))))
 
 
-def _detection(protocol: Protocol, found: Answers) -> list[Detection]:
+def _detection(protocol: Protocol, found: Answers, catch: Answers) -> list[Detection]:
     """d' and criterion of each level, from two rates: of yes, and of false alarms in the catch trials; or of the
     comparison in each of two intervals, so that a bias towards one of them is none of d'. Three intervals have none.
     Methods that follow the answers have none: which answers a level has would depend on them.
     """
-    yes_no = protocol.file.task == "yes_no"
+    yes_no, result = protocol.file.task == "yes_no", list[Detection]()
     planned = protocol.file.method == "constant" and (yes_no or protocol.file.task == "two_intervals")
-    list_of = []
     for level in np.unique(found.level) if planned else ():
         here = found.level == level
         cells = [found.counted[here & (found.side == side)] for side in (1, -1)]
         if yes_no:  # the false alarms are counted as the answers "no" of a second interval
-            cells[1] = 1 - found.catch
+            cells[1] = 1 - catch.counted
         if min(map(len, cells)) < LEAST_CELL:
             continue
         hits, n = np.array([(cell.sum(), len(cell)) for cell in cells], np.float64).T
         never, always = hits == 0, hits == n
-        one, other = map(_z, hits, n)
+        shares = (np.arange(_POINTS) + 0.5) / _POINTS  # the posterior of each rate with Jeffreys' prior
+        one, other = (ndtri(betaincinv(k + 0.5, m - k + 0.5, shares)) for k, m in zip(hits, n, strict=True))
         first, second = map(float, ndtri((hits + RATE + END * (always * 1.0 - never)) / (n + 2 * RATE)))
         per = 1 if yes_no else np.sqrt(2)
         dprime = _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always))
-        criterion = _spread(
-            (second - first) / 2, (other - one[:, None]) / 2, always[0] or never[1], never[0] or always[1]
-        )
-        list_of.append(Detection(float(level), int(here.sum()), dprime, criterion))
-    return list_of
+        ends = always[0] or never[1], never[0] or always[1]
+        criterion = _spread((second - first) / 2, (other - one[:, None]) / 2, *ends)
+        result.append(Detection(level=level, trials=int(here.sum()), dprime=dprime, criterion=criterion))
+    return result
 
 
 def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimate:
@@ -321,26 +296,19 @@ def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimat
     return Estimate(value, -np.inf if no_low else low, np.inf if no_high else high)
 
 
-def _z(hits: float, trials: float) -> Array:
-    """Equally probable values of a rate as normal deviates: the posterior with Jeffreys' prior."""
-    shares = (np.arange(_POINTS) + 0.5) / _POINTS
-    rate: Array = ndtri(betaincinv(hits + 0.5, trials - hits + 0.5, shares))
-    return rate
-
-
-def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Mapping[str, object]]]) -> Analysis:
+def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Line]]) -> Analysis:
     """All participants: the lines of each session by pseudonym, without headers."""
     people = [person(protocol, name, lines) for name, lines in sessions.items()]
-    result = Analysis(protocol.name, protocol.unit, protocol.in_newtons, people)
-    known = [one for one in people if one.threshold is not None or one.slope is not None]
+    result = Analysis(protocol=protocol.name, unit=protocol.unit, felt=protocol.in_newtons, people=people)
+    known = [one for one in people if one.threshold or one.slope]
     if len(known) < 2:
         what = "slope" if protocol.rates else "threshold"
         result.reason = f"{len(known)} participant{'s' * (len(known) != 1)} with a {what}: a mean needs 2"
         return result
     for key in ("threshold", "jnd", "weber", "slope"):
-        values = [one.value for person in known if (one := getattr(person, key)) is not None]
-        if len(values) == len(known) and np.isfinite(values).all():
-            setattr(result, key, _mean(np.array(values)))
+        values = np.array([getattr(person, key)[0] if getattr(person, key) else np.nan for person in known])
+        if np.isfinite(values).all():
+            setattr(result, key, _mean(values))
     return result
 
 

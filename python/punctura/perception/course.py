@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from pydantic import BaseModel, NonNegativeInt
 
 from punctura.perception.protocol import Protocol, Stimulus
 from punctura.perception.psychometric import QUEST, Array, Grid
 from punctura.perception.stimulus import Felt
-from punctura.results import JsonObject
 
 Kind = Literal["practice", "trial", "catch"]
 PAIRS = 2
@@ -131,18 +131,14 @@ class Course:
 
     def __init__(self, protocol: Protocol, participant: int) -> None:
         self.protocol = protocol
-        given, count = protocol.file.trials, protocol.intervals
-        group, self._turn = divmod(participant, count)
-        random = np.random.default_rng([protocol.file.seed, group])
+        given = protocol.file.trials
+        self._group, self._turn = divmod(participant, protocol.intervals)
+        random = np.random.default_rng([protocol.file.seed, self._group])
         self._method = _method(protocol, random)
-        scored = (given.per_level or 0) * len(protocol.levels) or (given.total or 0)
+        kinds: list[Kind] = ["trial"] * (protocol.file.scored // given.blocks)
+        kinds += ["catch"] * given.catch
         self._plan: list[tuple[int, Kind]] = [(0, "practice")] * given.practice
-        for block in range(given.blocks):
-            trial: Kind = "trial"
-            catch: Kind = "catch"
-            kinds = [trial] * (scored // given.blocks) + [catch] * given.catch
-            self._plan += [(block, kinds[i]) for i in random.permutation(len(kinds))]
-        self._group = group
+        self._plan += [(block, kinds[i]) for block in range(given.blocks) for i in random.permutation(len(kinds))]
         self._shown: Counter[tuple[Kind, int]] = Counter()
         self.at = 0  # in the plan
         self._number = 0  # of the trial: an adjustment has several for each place of the plan
@@ -181,10 +177,25 @@ class Course:
         return int(np.random.default_rng(seeds).permutation(size)[place])
 
 
-def line_of(trial: Trial, answer: str, felt: Sequence[Felt]) -> JsonObject:
-    """A trial and its answer as they are on disk."""
-    return {"trial": trial.number, "block": trial.block, "kind": trial.kind, "level": trial.shown.level,
-            "position": trial.position, "answer": answer, "felt": [asdict(one) for one in felt]}  # fmt: skip
+class Line(BaseModel, frozen=True):
+    """An answered trial, as it is on disk."""
+
+    trial: NonNegativeInt  # its number
+    block: NonNegativeInt
+    kind: Kind
+    level: float  # of the comparison
+    position: NonNegativeInt  # of the comparison among the intervals
+    answer: str
+    felt: tuple[Felt, ...]  # of each interval
+    recordings: tuple[str, ...] = ()  # names of the files
+    time: str = ""  # of the answer, ISO 8601, UTC
+
+
+def line_of(trial: Trial, answer: str, felt: Sequence[Felt], recordings: Sequence[str] = (), time: str = "") -> Line:
+    return Line(
+        trial=trial.number, block=trial.block, kind=trial.kind, level=trial.shown.level, position=trial.position,
+        answer=answer, felt=tuple(felt), recordings=tuple(recordings), time=time,
+    )  # fmt: skip
 
 
 def counted(protocol: Protocol, position: int, answer: str) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from decimal import Decimal
 from functools import cache, partial
 from pathlib import Path
@@ -14,7 +14,7 @@ from punctura._core import ForceLimits
 from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.files.toml import read_tables
 from punctura.perception.protocol import ANSWERS, KEYS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
-from punctura.perception.stimulus import QUANTITIES, built, cut_by_limits, simulated, solved
+from punctura.perception.stimulus import QUANTITIES, cut_by_limits, simulated, solved
 from punctura.perception.words import problems_of
 from punctura.ready_protocols import protocol_files
 from punctura.study.plan import nearest, scene_of
@@ -90,7 +90,7 @@ def _trials(file: ProtocolFile) -> Iterator[Row]:
     given, method = file.trials, file.method
     wanted, other = ("per_level", "total") if method == "constant" else ("total", "per_level")
     extra, count, least = getattr(given, other), getattr(given, wanted), LEAST[method]
-    scored = (count or 0) * (len(file.stimulus.levels) if method == "constant" else 1)
+    scored = file.scored
     few = f"{scored} trials are too few for the fit" if scored < least else f"are {scored} trials"
     counts = least <= scored <= MOST_TRIALS
     yield file.seed < 0, "seed", file.seed, "must be 0 or more"
@@ -119,8 +119,7 @@ def _trials(file: ProtocolFile) -> Iterator[Row]:
 
 
 def _stimulus(file: ProtocolFile) -> Iterator[Row]:
-    given, key = file.stimulus, "stimulus.levels"
-    levels = [float(level) for level in given.levels]
+    key, levels = "stimulus.levels", file.levels
     count = LEAST_LEVELS <= len(levels) <= MOST_LEVELS
     reason = f"must be {LEAST_LEVELS} to {MOST_LEVELS} numbers, each larger than the one before"
     yield not (count and all(map(math.isfinite, levels)) and sorted(set(levels)) == levels), key, levels, reason
@@ -133,8 +132,7 @@ def _stimulus(file: ProtocolFile) -> Iterator[Row]:
 
 def _reference(file: ProtocolFile) -> Iterator[Row]:
     """Of the other intervals."""
-    given, task, levels = file.stimulus, file.task, [float(level) for level in file.stimulus.levels]
-    where = "stimulus.reference"
+    given, task, levels, where = file.stimulus, file.task, file.levels, "stimulus.reference"
     reference, catch = (None if one is None else float(one) for one in (given.reference, file.trials.catch_level))
     if task in ONE_INTERVAL:
         for key in ("reference", "reference_solver"):
@@ -188,56 +186,63 @@ def _paths(file: ProtocolFile, scene: Scene) -> Iterator[Row]:
 
 def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
     """The protocol with its stimuli. Raises ConfigurationError with those that no scene can give."""
-    given, problems = file.stimulus, []
-    wanted, levels = given.membrane, [float(level) for level in given.levels]
-    membrane = 0 if wanted is None else [placed.name for placed in scene.membranes].index(wanted)
+    given, levels, problems = file.stimulus, file.levels, list[Problem]()
+    names = [placed.name for placed in scene.membranes]
+    membrane = 0 if given.membrane is None else names.index(given.membrane)
+
+    def made(key: str, value: object, make: Callable[[], Scene]) -> Scene | None:
+        try:
+            return make()
+        except ConfigurationError as bad:
+            reason = "; ".join(problem.reason for problem in bad.problems)
+        except ValueError as bad:
+            reason = str(bad)
+        problems.append(Problem(key, value, reason))
+        return None
+
     if scene.display.force_scale == "automatic":
         reason = 'must not be "automatic", else each level has another scale: give a number in the scene file'
         problems.append(Problem("scene: display.force_scale", scene.display.force_scale, reason))
-    fixed, reason = built(partial(scene.with_values, {path: float(v) for path, v in file.values.items()}))
-    if fixed is None:
-        raise ConfigurationError([*problems, Problem("values", MISSING, reason)], str(path))
-    for end in map(float, given.between or ()):
-        if reason := built(partial(fixed.with_values, {str(given.solve): end}))[1]:
-            problems.append(Problem("stimulus.between", end, reason))
-    if problems:
+    values = {key: float(value) for key, value in file.values.items()}
+    fixed = made("values", MISSING, partial(scene.with_values, values))
+    ends = [float(end) for end in given.between or ()]
+    if fixed:
+        for end in ends:
+            made("stimulus.between", end, partial(fixed.with_values, {str(given.solve): end}))
+    if fixed is None or problems:
         raise ConfigurationError(problems, str(path))
 
     @cache
-    def stimulus(key: str, level: float, solver: str | None) -> Stimulus | None:
+    def stimulus(key: str, level: float, solver: str | None) -> list[Stimulus]:
         base = fixed if solver is None else fixed.replace(servo=fixed.servo.replace(solver=solver))
         make = partial(base.with_values, {given.variable: level})
         if given.variable in QUANTITIES:
-            low, high = (float(end) for end in given.between or ())
-            make = partial(solved, base, given.variable, level, str(given.solve), (low, high), membrane)
-        found, reason = built(make)
-        if found is None:
-            problems.append(Problem(key, level, reason))
-            return None
-        return Stimulus(level, found, simulated(found, membrane))
+            make = partial(solved, base, given.variable, level, str(given.solve), (ends[0], ends[1]), membrane)
+        found = made(key, level, make)
+        return [Stimulus(level, found, simulated(found, membrane))] if found else []
 
-    def each(solver: str | None) -> list[Stimulus | None]:
-        return [stimulus(f"stimulus.levels[{i}]", level, solver) for i, level in enumerate(levels)]
+    def each(solver: str | None) -> list[Stimulus]:
+        return [one for i, level in enumerate(levels) for one in stimulus(f"stimulus.levels[{i}]", level, solver)]
 
-    stimuli, references, catch = each(given.solver), [], None
+    stimuli, references, catch = each(given.solver), list[Stimulus](), None
     if given.reference is not None:
-        references = [stimulus("stimulus.reference", float(given.reference), given.solver)] * len(levels)
+        references = stimulus("stimulus.reference", float(given.reference), given.solver) * len(levels)
     elif given.reference_solver is not None:
         references = each(given.reference_solver)
     if file.trials.catch_level is not None:
-        catch = stimulus("trials.catch_level", float(file.trials.catch_level), given.solver)
+        catch = next(iter(stimulus("trials.catch_level", float(file.trials.catch_level), given.solver)), None)
+    if problems:
+        raise ConfigurationError(problems, str(path))
     unit = next((one.unit for one in scene.fields() if one.path == given.variable), "N")
-    if not problems:
-        shown, others = (tuple(one for one in each if one is not None) for each in (stimuli, references))
-        protocol = Protocol(path, file, shown, others, catch, membrane, unit)
-        if not any(protocol.difference(i) > 0 for i in range(len(shown))):
-            reason = f"no level changes the {given.judged} that is judged; choose another variable or judged"
-            problems.append(Problem("stimulus.levels", levels, reason))
-        if catch is not None and file.task == "yes_no":
-            least, most = (min(getattr(one.felt, given.judged) for one in some) for some in (shown, [catch]))
-            if most > least:
-                reason = f"must lack what is asked for: its {given.judged} is {most:.3g}, that of a level {least:.3g}"
-                problems.append(Problem("trials.catch_level", catch.level, reason))
-        if not problems:
-            return protocol
-    raise ConfigurationError(problems, str(path))
+    protocol = Protocol(path, file, tuple(stimuli), tuple(references), catch, membrane, unit)
+    if not any(protocol.difference(i) > 0 for i in range(len(levels))):
+        reason = f"no level changes the {given.judged} that is judged; choose another variable or judged"
+        problems.append(Problem("stimulus.levels", levels, reason))
+    if catch and file.task == "yes_no":
+        most, least = protocol.judged(catch), min(map(protocol.judged, stimuli))
+        if most > least:
+            reason = f"must lack what is asked for: its {given.judged} is {most:.3g}, that of a level {least:.3g}"
+            problems.append(Problem("trials.catch_level", catch.level, reason))
+    if problems:
+        raise ConfigurationError(problems, str(path))
+    return protocol

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from punctura.perception.course import Course, Trial, line_of
+from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol, Stimulus
 from punctura.perception.psychometric import Array, strongest
 from punctura.perception.session import Session
@@ -80,7 +80,7 @@ class Simulation:
         inner = judged + spread * random.standard_normal(len(felt))
         inner[0] += self.observer.bias * (len(inner) > 1)
         if self.protocol.file.task == "magnitude":
-            return f"{max(inner[0] / self.criterion, 0.01):.3g}", felt
+            return f"{np.clip(inner[0] / self.criterion, 0.01, 1e6):.2f}", felt
         if self.protocol.rates:
             return names[int(np.clip(round(inner[0] / self.criterion), 0, len(names) - 1))], felt
         if self.protocol.file.task == "yes_no":
@@ -100,7 +100,7 @@ class Simulation:
 
     def _sign(self, shown: Stimulus, other: Stimulus) -> int:
         """1 if the question seeks the strongest interval; -1 for the weakest: the levels only weaken the reference."""
-        weaker = getattr(shown.felt, self._judged) < getattr(other.felt, self._judged)
+        weaker = self.protocol.judged(shown) < self.protocol.judged(other)
         return -1 if weaker and not self.protocol.compares else 1
 
     @cached_property
@@ -108,13 +108,12 @@ class Simulation:
         """Above which a yes is given, or the step between two ratings; N."""
         if self.observer.criterion is not None:
             return self.observer.criterion
-        most = float(getattr(self.protocol.stimuli[self.protocol.easiest].felt, self._judged))
+        most = self.protocol.judged(self.protocol.stimuli[self.protocol.easiest])
         return most / (8 if self.protocol.rates else 2)
 
-    def run(self, participant: int, seed: int) -> list[dict[str, object]]:
+    def run(self, participant: int, seed: int) -> list[Line]:
         """The lines of a whole session, without a file."""
-        course = Course(self.protocol, participant)
-        lines: list[dict[str, object]] = []
+        course, lines = Course(self.protocol, participant), list[Line]()
         while (trial := course.next()) is not None:
             answer, felt = self.answer(trial, seed)
             lines.append(line_of(trial, answer, felt))

@@ -98,9 +98,8 @@ def power(
                 lines[f"P{j}"] = Simulation(sized, one, senses).run(j, int(random.integers(2**31)))
             found.append(analyse(sized, lines))
         own = [one.threshold for each in found for one in each.people]
-        scored = len(sized.levels) * (sized.file.trials.per_level or 0) or (sized.file.trials.total or 0)
         widths = _width(own), _width([each.threshold for each in found])
-        rows.append(PowerRow(scored, crowd, *widths, without=own.count(None) / len(own)))
+        rows.append(PowerRow(sized.file.scored, crowd, *widths, without=own.count(None) / len(own)))
         report(len(rows) / (len(trials) * len(people)))
     return rows
 

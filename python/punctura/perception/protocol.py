@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -28,6 +29,7 @@ ANSWERS: dict[str, tuple[str, ...]] = {
     "adjustment": ("less", "more", "equal"),
 }
 ONE_INTERVAL = ("yes_no", "rating", "magnitude")
+_NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}")
 KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n", "less": "-", "more": "+", "equal": "="}
 
 
@@ -78,6 +80,17 @@ class ProtocolFile(Table):
     answers: dict[str, Text] = Field(default_factory=dict)  # the key of each answer
     values: dict[str, Number] = Field(default_factory=dict)  # numbers of the scene in all intervals
     words: WordsTable = WordsTable()  # the session's sentences and answers in the participant's language
+
+    @property
+    def levels(self) -> list[float]:
+        """As the file has them."""
+        return [float(level) for level in self.stimulus.levels]
+
+    @property
+    def scored(self) -> int:
+        """The number of trials without practice and catch; settings of an adjustment."""
+        each = (self.trials.per_level or 0) * len(self.stimulus.levels)
+        return each if self.method == "constant" else self.trials.total or 0
 
 
 SCHEMA = Schema(
@@ -154,6 +167,10 @@ class Protocol:
         """The key of each answer, in the order of the task."""
         return {name: self.file.answers.get(name, KEYS.get(name, name)) for name in ANSWERS[self.file.task]}
 
+    def takes(self, answer: str) -> bool:
+        """Whether it is an answer of the task."""
+        return answer in self.answers if self.answers else bool(_NUMBER.fullmatch(answer)) and float(answer) > 0
+
     @property
     def in_newtons(self) -> bool:
         """Whether the variable is a felt quantity."""
@@ -174,11 +191,14 @@ class Protocol:
             and min(self.levels) < reference < max(self.levels)
         )
 
+    def judged(self, one: Stimulus) -> float:
+        """What an observer judges, as a hand without tremor feels it."""
+        return float(getattr(one.felt, self.file.stimulus.judged))
+
     @property
     def rises(self) -> bool:
         """Whether the judged quantity grows with the level."""
-        first, last = (getattr(self.stimuli[i].felt, self.file.stimulus.judged) for i in (0, -1))
-        return bool(last >= first)
+        return self.judged(self.stimuli[-1]) >= self.judged(self.stimuli[0])
 
     @property
     def shape(self) -> Shape:
@@ -201,9 +221,7 @@ class Protocol:
 
     def difference(self, i: int) -> float:
         """How much of the judged quantity level i differs by from its reference."""
-        judged = self.file.stimulus.judged
-        other = getattr(self.references[i].felt, judged) if self.references else 0.0
-        return abs(float(getattr(self.stimuli[i].felt, judged)) - float(other))
+        return abs(self.judged(self.stimuli[i]) - (self.judged(self.references[i]) if self.references else 0.0))
 
     @property
     def digest(self) -> str:

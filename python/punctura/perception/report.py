@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import io
-import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,10 +24,9 @@ from punctura.perception.analysis import (
     belief_of,
     felt_level,
 )
-from punctura.perception.course import counted
+from punctura.perception.course import Line, counted
 from punctura.perception.protocol import Protocol
-from punctura.perception.session import TABLES, SessionError, check_header, check_lines, read_session, sessions
-from punctura.results import JsonObject
+from punctura.perception.session import TABLES, Header, SessionError, check_header, check_lines, read_session, sessions
 from punctura.ticks.files import save
 
 if TYPE_CHECKING:
@@ -66,17 +63,22 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
 
     Raises SessionError if there is none, or one of another protocol.
     """
-    found = {}
+    found, rows = {}, []
     for path in sessions(folder):
-        if lines := read_session(path):  # a kill may have left a file without its first line
-            check_header(lines[0], protocol, path)
-            check_lines(lines[1:], protocol, path)
+        header, lines = read_session(path)
+        if header:
+            check_header(header, protocol, path)
+            check_lines(lines, protocol, path)
             found[path.stem] = lines
+            rows += [_row(protocol, header, line) for line in lines]
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
-    analysis = analyse(protocol, {name: lines[1:] for name, lines in found.items()})
-    _save_tables(_table(protocol, found), folder)
-    write_whole(folder / "results.json", json_of(analysis).encode(), private=True)
+    analysis = analyse(protocol, found)
+    table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
+    about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
+    for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
+        save(content, folder / name, private=True)
+    write_whole(folder / "results.json", f"{analysis.model_dump_json(indent=1)}\n".encode(), private=True)
     if picture := _draw(protocol, analysis, found):
         write_whole(folder / "functions.svg", picture, private=True)
     write_whole(folder / "report.md", _text(protocol, analysis, bool(picture)).encode(), private=True)
@@ -92,12 +94,6 @@ def words(one: Estimate | None) -> str:
         return f"{value} ({low} to {high})"
     bound = f"at least {low}" if np.isfinite(one.low) else f"at most {high}"
     return f"{value} ({bound})" if np.isfinite(one.value) else bound
-
-
-def json_of(found: Analysis) -> str:
-    """What is not finite is null: JSON has no infinite numbers."""
-    plain = json.loads(json.dumps(asdict(found)), parse_constant=lambda word: None)
-    return json.dumps(plain, indent=1) + "\n"
 
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
@@ -148,7 +144,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     return "\n".join(lines + (["![The psychometric functions](functions.svg)", ""] if drawn else []))
 
 
-def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[JsonObject]]) -> bytes | None:
+def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[Line]]) -> bytes | None:
     """The first people with a result: the mean answer at each level, and the function with its 95 % band."""
     from matplotlib.figure import Figure
 
@@ -163,7 +159,7 @@ def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[J
         figure = Figure(figsize=(2.6 * across, 2.3 * down), layout="constrained")
         for number, one in enumerate(people, 1):
             panel = figure.add_subplot(down, across, number)
-            _panel(panel, protocol, one, answers_of(protocol, sessions[one.participant][1:]))
+            _panel(panel, protocol, one, *answers_of(protocol, sessions[one.participant]))
             panel.set_title(one.participant)
         texts = [_label(protocol), "share of " * (not (protocol.rates or protocol.adjusts)) + _counted(protocol)]
         figure.supxlabel(texts[protocol.adjusts], size="medium")
@@ -173,7 +169,7 @@ def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[J
     return data.getvalue()
 
 
-def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> None:
+def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers, catch: Answers) -> None:
     if protocol.unit == "m":
         axis = panel.yaxis if protocol.adjusts else panel.xaxis
         axis.set_major_formatter(lambda value, _: f"{1e3 * value:g}")
@@ -192,7 +188,7 @@ def _panel(panel: Axes, protocol: Protocol, one: Person, answers: Answers) -> No
         line = np.polyval(np.polyfit(x, y, 1), np.log(curve) if log else curve)
         panel.plot(curve, np.exp(line) if log else line, color="0.2", lw=1.2)
         return
-    belief = belief_of(protocol, answers)
+    belief = belief_of(protocol, answers, catch)
     p = belief.grid.probability(curve)
     band = np.array([belief.quantiles(row, SHARES) for row in p])
     panel.fill_between(curve, band[:, 0], band[:, 1], color="0.85", lw=0)
@@ -222,31 +218,20 @@ def _counted(protocol: Protocol) -> str:
     return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right answers"
 
 
-def _table(protocol: Protocol, sessions: Mapping[str, Sequence[JsonObject]]) -> pa.Table:
-    rows = [_row(protocol, lines[0], line) for lines in sessions.values() for line in lines[1:]]
-    return pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
-
-
-def _row(protocol: Protocol, header: JsonObject, line: JsonObject) -> JsonObject:
+def _row(protocol: Protocol, header: Header, line: Line) -> dict[str, object]:
     lacks = protocol.rates or protocol.adjusts
-    felt = list(line["felt"])
-    mine = felt.pop(int(line["position"]))
-    row = {name: line[name] for name in ("trial", "block", "kind", "level", "position", "answer", "time")}
+    felt = list(line.felt)
+    mine = felt.pop(line.position)
+    row = line.model_dump(include={"trial", "block", "kind", "level", "position", "answer", "time"})
     row |= {
-        "participant": header["participant"],
-        "participant_number": header["number"],
+        "participant": header.participant,
+        "participant_number": header.number,
         "felt_level": felt_level(protocol, line)[0] if protocol.in_newtons else None,
-        "counted": None if lacks else bool(counted(protocol, int(line["position"]), str(line["answer"]))),
-        "force_scale": mine["scale"],
-        "recordings": ";".join(line.get("recordings", ())),
+        "counted": None if lacks else bool(counted(protocol, line.position, line.answer)),
+        "force_scale": mine.scale,
+        "recordings": ";".join(line.recordings),
     }
-    row |= {name: mine[key] for name, key in _OF_FELT.items()}
+    row |= {name: getattr(mine, key) for name, key in _OF_FELT.items()}
     for name in ("drop", "peak"):
-        row[f"reference_{name}_N"] = float(np.mean([one[name] for one in felt])) if felt else None
+        row[f"reference_{name}_N"] = float(np.mean([getattr(one, name) for one in felt])) if felt else None
     return row
-
-
-def _save_tables(table: pa.Table, folder: Path) -> None:
-    rows = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
-    for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(rows)), strict=True):
-        save(content, folder / name, private=True)

@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import errno
-import json
-import math
 import os
 import re
 from collections.abc import Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 
+from pydantic import BaseModel, NonNegativeInt, ValidationError
+
 from punctura import PuncturaError, __version__
 from punctura.files.whole_file import private, private_folder, sync
-from punctura.perception.course import Course, Trial, line_of
+from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.stimulus import Felt
 from punctura.record.new_file import lock
-from punctura.results import JsonObject
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
 WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)  # by the analysis
-_HEADER = {"participant", "number", "digest", "version"}
-_LINE = {"trial", "block", "kind", "level", "position", "answer", "felt", "time"}
 
 
 class SessionError(PuncturaError):
@@ -35,17 +32,30 @@ class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
 
 
+class Header(BaseModel, frozen=True):
+    """The first line of a session."""
+
+    protocol: str  # its name
+    digest: str  # of the protocol
+    participant: str
+    number: NonNegativeInt  # of the participant: decides the order
+    simulated: bool = False
+    version: str  # of Punctura
+    began: str = ""  # ISO 8601, UTC
+    consent: bool = False
+
+
 def agreed(protocol: Protocol, folder: Path, participant: str) -> bool:
     """Whether the participant has agreed in a part of the session that is on disk.
 
     Raises SessionError if no session of this protocol and participant can be in the folder.
     """
     path = _path(folder, participant)
-    lines = read_session(path) if path.exists() else []
-    for header in lines[:1]:
+    header, _ = read_session(path) if path.exists() else (None, [])
+    if header:
         check_header(header, protocol, path)
     _free_number({*sessions(folder)} - {path}, simulated=False)
-    return bool(lines and lines[0].get("consent"))
+    return header is not None and header.consent
 
 
 def _path(folder: Path, participant: str) -> Path:
@@ -77,19 +87,23 @@ class Session:
         if protocol.file.consent and not consent:
             raise SessionError("the participant has not agreed to the text of the protocol's key consent")
         private_folder(folder)
-        before = set(sessions(folder))
+        others = set(sessions(folder)) - {self.path}
         self._descriptor = private(str(self.path), os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0))
         try:
             if lock(self._descriptor) is False:
                 raise SessionError(f"{self.path}: another program runs this participant's session")
-            lines = self._whole_lines()
-            if not lines:
-                lines = [_header(protocol, participant, _free_number(before - {self.path}, simulated), simulated)]
-                self._append(lines[0])
-            self.header = lines[0]
-            check_header(self.header, protocol, self.path)
-            self.course = Course(protocol, int(self.header["number"]))
-            for line in lines[1:]:
+            header, lines = read_session(self.path)  # before the file is changed, which may be no session
+            os.ftruncate(self._descriptor, self.path.read_bytes().rfind(b"\n") + 1)  # what a kill left of a last line
+            if header is None:
+                header = Header(
+                    protocol=protocol.name, digest=protocol.digest, participant=participant, version=__version__,
+                    number=_free_number(others, simulated), simulated=simulated, began=_now(),
+                    consent=bool(protocol.file.consent),
+                )  # fmt: skip
+                self._append(header)
+            check_header(header, protocol, self.path)
+            self.header, self.course = header, Course(protocol, header.number)
+            for line in lines:
                 self._repeat(line)
         except BaseException:
             os.close(self._descriptor)
@@ -116,12 +130,12 @@ class Session:
         """
         for file in (*(self.path.parent / name for name in recordings), self.path.parent):
             sync(file)
-        self._append({**line_of(trial, answer, felt), "recordings": list(recordings), "time": _now()})
+        self._append(line_of(trial, answer, felt, recordings, _now()))
         self.course.add(trial, answer)
 
-    def _append(self, line: JsonObject) -> None:
+    def _append(self, line: BaseModel) -> None:
         size = os.lseek(self._descriptor, 0, os.SEEK_END)
-        data = (json.dumps(line, ensure_ascii=False) + "\n").encode()
+        data = (line.model_dump_json() + "\n").encode()
         try:
             while data:
                 data = data[os.write(self._descriptor, data) :]
@@ -134,54 +148,39 @@ class Session:
                 ) from None
             raise
 
-    def _whole_lines(self) -> list[JsonObject]:
-        """The lines of the file. What a kill left of a last one is cut off."""
-        os.lseek(self._descriptor, 0, os.SEEK_SET)  # on Windows the lock has moved it
-        with open(self._descriptor, "rb", closefd=False) as file:
-            data = file.read()
-        whole = data[: data.rfind(b"\n") + 1]
-        lines = parsed(whole, self.path)  # before the file is changed, which may be no session
-        os.ftruncate(self._descriptor, len(whole))
-        return lines
-
-    def _repeat(self, line: JsonObject) -> None:
+    def _repeat(self, line: Line) -> None:
         trial = self.course.next()
-        if trial is None or (line["trial"], line["level"], line["position"]) != (
-            trial.number, trial.shown.level, trial.position,
-        ):  # fmt: skip
+        if trial is None or line_of(trial, line.answer, line.felt, line.recordings, line.time) != line:
             raise SessionError(
-                f"{self.path}: trial {line['trial']} is not the one that this version of Punctura would show; the "
-                f"session began with {self.header['version']}: go on with that version"
+                f"{self.path}: trial {line.trial} is not the one that this version of Punctura would show; the "
+                f"session began with {self.header.version}: go on with that version"
             )
-        self.course.add(trial, str(line["answer"]))
+        self.course.add(trial, line.answer)
 
 
-def check_header(header: JsonObject, protocol: Protocol, path: Path) -> None:
+def check_header(header: Header, protocol: Protocol, path: Path) -> None:
     """Raises SessionError if a session is not one of this protocol."""
     for key, wanted in (("protocol", protocol.name), ("digest", protocol.digest)):
-        if header.get(key) != wanted:
+        if (found := getattr(header, key)) != wanted:
             raise SessionError(
-                f"{path} is a session of another protocol or of a changed one ({key} {header.get(key)!r}, now "
-                f"{wanted!r}): give the same protocol again, or another folder"
+                f"{path} is a session of another protocol or of a changed one ({key} {found!r}, now {wanted!r}): give "
+                "the same protocol again, or another folder"
             )
-    if header["participant"] != path.stem:
-        raise SessionError(f"{path} is the session of {header['participant']}: give the file its old name")
+    if header.participant != path.stem:
+        raise SessionError(f"{path} is the session of {header.participant}: give the file its old name")
 
 
-def check_lines(lines: Sequence[JsonObject], protocol: Protocol, path: Path) -> None:
+def check_lines(lines: Sequence[Line], protocol: Protocol, path: Path) -> None:
     """Raises SessionError if a trial is none of the protocol: the file was changed by hand."""
     shown = {*protocol.levels, *([protocol.catch.level] if protocol.catch else [])}
     for number, line in enumerate(lines):
-        try:
-            numbers = [value for one in line["felt"] for value in vars(Felt(**one)).values()]
-            sound = all(map(math.isfinite, numbers)) and len(line["felt"]) == protocol.intervals
-            known = line["answer"] in protocol.answers if protocol.answers else float(line["answer"]) > 0
-            sound &= known and line["position"] in range(protocol.intervals) and line["level"] in shown
-            sound &= line["kind"] in ("practice", "trial", "catch") and line["block"] >= 0
-        except (TypeError, ValueError):
-            sound = False
-        if not sound or line["trial"] != number:
-            raise SessionError(f"{path}, line {number + 2}: is no trial of this session; restore the file from a copy")
+        fits = line.position < protocol.intervals == len(line.felt) and protocol.takes(line.answer)
+        if line.trial != number or line.level not in shown or not fits:
+            raise _no_line(path, number + 2)
+
+
+def _no_line(path: Path, number: int) -> SessionError:
+    return SessionError(f"{path}, line {number}: is no line of this session; restore the file from a copy")
 
 
 def sessions(folder: Path) -> list[Path]:
@@ -189,25 +188,23 @@ def sessions(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob(f"*{SUFFIX}") if _PSEUDONYM.fullmatch(path.stem))
 
 
-def read_session(path: Path) -> list[JsonObject]:
-    """The header of a session and its trials, without a last line that is not whole. Raises SessionError, OSError."""
-    data = path.read_bytes()
-    return parsed(data[: data.rfind(b"\n") + 1], path)
+def read_session(path: Path) -> tuple[Header | None, list[Line]]:
+    """The header of a session and its trials, without a last line that is not whole. Raises SessionError, OSError.
 
-
-def parsed(data: bytes, path: Path) -> list[JsonObject]:
-    """The lines of a session's file. Raises SessionError for any other file."""
-    lines: list[JsonObject] = []
-    for number, text in enumerate(data.splitlines(), 1):
+    A kill may have left a file without a header.
+    """
+    header, lines = None, []
+    for number, text in enumerate(path.read_bytes().splitlines(keepends=True), 1):
+        if not text.endswith(b"\n"):
+            break
         try:
-            line = json.loads(text)
-        except ValueError:
-            line = None
-        wanted = _HEADER if number == 1 else _LINE
-        if not isinstance(line, dict) or not wanted <= line.keys():
-            raise SessionError(f"{path}, line {number}: is no line of a session; restore the file from a copy")
-        lines.append(line)
-    return lines
+            if header is None:
+                header = Header.model_validate_json(text)
+            else:
+                lines.append(Line.model_validate_json(text))
+        except ValidationError:
+            raise _no_line(path, number) from None
+    return header, lines
 
 
 def recordings(folder: Path, participant: str, trial: str = r"\d{4,}") -> list[Path]:
@@ -224,35 +221,20 @@ def delete_participant(folder: Path, participant: str) -> list[Path]:
     path = folder / f"{participant}{SUFFIX}"
     if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
         raise SessionError(f"{folder} has no participant {participant!r}")
-    names = {str(name) for line in read_session(path)[1:] for name in line.get("recordings", ())}
-    names |= {file.name for file in recordings(folder, participant)}
-    names = {name for name in names if Path(name).name == name} | {*WRITTEN}
-    found = [file for name in [*sorted(names), path.name] if (file := folder / name).is_file()]
+    written = [file for name in WRITTEN if (file := folder / name).is_file()]
+    found = [*sorted(recordings(folder, participant)), *written, path]
     for file in found:
         file.unlink()
     return found
 
 
-def _header(protocol: Protocol, participant: str, number: int, simulated: bool) -> JsonObject:
-    return {
-        "protocol": protocol.name,
-        "digest": protocol.digest,
-        "participant": participant,
-        "number": number,
-        "simulated": simulated,
-        "version": __version__,
-        "began": _now(),
-        "consent": bool(protocol.file.consent),
-    }
-
-
 def _free_number(paths: set[Path], simulated: bool) -> int:
     """The smallest number that no session has: it decides the participant's order. Raises SessionError."""
-    headers = [lines[0] for path in paths if (lines := read_session(path))]
-    if any(header.get("simulated", False) != simulated for header in headers):
+    headers = [header for path in paths if (header := read_session(path)[0])]
+    if any(header.simulated != simulated for header in headers):
         other = "people" if simulated else "simulated observers"
         raise SessionError(f"the folder has sessions of {other}, and no report may mix both: choose another --out")
-    used = {int(header["number"]) for header in headers}
+    used = {header.number for header in headers}
     return next(number for number in range(len(used) + 1) if number not in used)
 
 

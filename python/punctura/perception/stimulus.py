@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from pydantic import BaseModel
 from scipy.optimize import brentq
 
 from punctura import Scene
@@ -26,8 +26,7 @@ from punctura._core import (
     lasting_force,
 )  # fmt: skip
 from punctura.compare.run import Run
-from punctura.compare.statistics import FELT_S, statistics
-from punctura.errors import ConfigurationError
+from punctura.compare.statistics import FELT_S, Finite, statistics
 from punctura.events import crossing
 from punctura.live import stroke_ends
 from punctura.live.force_words import LIMIT_WORDS
@@ -41,16 +40,15 @@ BEFORE_POP_S = 0.01  # that the roughness leaves out
 READY_S = 0.25  # from a change of the scene, which fades in over 0.2 s, until the needle may touch
 
 
-@dataclass(frozen=True)
-class Felt:
+class Felt(BaseModel, frozen=True, extra="forbid"):
     """The felt force of one interval, from its ticks. SI."""
 
-    drop: float  # N, at the pop of the judged membrane; 0 without a pop
-    contrast: float  # that drop as a share of the force before it
-    peak: float  # N, the largest of the run
-    roughness: float  # N rms about the mean of SMOOTH_S, from the first touch to just before the first pop
-    speed: float  # m/s along the needle, mean from the first touch to the deepest place
-    scale: float  # how much of the model's force the device gives
+    drop: Finite  # N, at the pop of the judged membrane; 0 without a pop
+    contrast: Finite  # that drop as a share of the force before it
+    peak: Finite  # N, the largest of the run
+    roughness: Finite  # N rms about the mean of SMOOTH_S, from the first touch to just before the first pop
+    speed: Finite  # m/s along the needle, mean from the first touch to the deepest place
+    scale: Finite  # how much of the model's force the device gives
     pops: int
 
 
@@ -61,26 +59,23 @@ def felt(run: Run, membrane: int, scale: float) -> Felt:
     """What a run felt like. membrane: the judged one. scale: the run's force scale."""
     found = statistics(run)
     pops = [pop for pop in found.pops if pop.membrane == membrane]
-    largest = max(pops, key=lambda pop: pop.felt_drop or 0.0, default=None)
-    drop = 0.0 if largest is None else largest.felt_drop or 0.0
     touch, deepest = run.touch, int(np.nanargmax(run.depth))
+    drop = contrast = 0.0
+    if pops:
+        drop, time = max((pop.felt_drop or 0.0, run.time[touch] + pop.time) for pop in pops)
+        before = run.felt[(run.time >= time - FELT_S) & (run.time <= time)]
+        contrast = drop / max(float(np.nanmax(before)), 1e-9)
     seconds = float(run.time[max(deepest, touch)] - run.time[touch])
     way = float(np.nansum(run.travel[touch + 1 : deepest + 1]))
     return Felt(
         drop=drop,
-        contrast=0.0 if largest is None else drop / max(_before(run, run.time[touch] + largest.time), 1e-9),
+        contrast=contrast,
         peak=found.felt_peak or 0.0,
         roughness=_roughness(run, touch),
         speed=way / seconds if seconds > 0 else 0.0,
         scale=scale,
         pops=len(pops),
     )
-
-
-def _before(run: Run, time: float) -> float:
-    """The largest felt force just before a pop, N."""
-    around = (run.time >= time - FELT_S) & (run.time <= time)
-    return float(np.nanmax(run.felt[around]))
 
 
 def _roughness(run: Run, touch: int) -> float:
@@ -176,13 +171,3 @@ def cut_by_limits(scene: Scene, limits: ForceLimits) -> str:
         f"needs {needed:.2f} N, and this device gives {lasting:.2f} N for any time: give [values] "
         f'"display.force_scale" = {scale:g} or less, leave the level out, or use a stronger device'
     )
-
-
-def built(make: Callable[[], Scene]) -> tuple[Scene | None, str]:
-    """The scene, or the reason why there is none."""
-    try:
-        return make(), ""
-    except ConfigurationError as bad:
-        return None, "; ".join(problem.reason for problem in bad.problems)
-    except ValueError as bad:
-        return None, str(bad)

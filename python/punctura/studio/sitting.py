@@ -7,7 +7,6 @@ view is covered. Its answer is on the disk before the run of the next one begins
 from __future__ import annotations
 
 import math
-import re
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -37,7 +36,6 @@ from punctura.ticks import ABSENT, Ticks
 
 GO = {"go_on": "Enter"}
 NOISE_S = 20
-_NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}")
 Then = Callable[[str], None]  # gets an answer
 
 
@@ -51,8 +49,7 @@ class PerceptionSitting:
         """base: the scene's file. The answers are beside the studio's recordings. Raises SessionError."""
         self.sound = pink_noise(NOISE_S) if protocol.file.noise else b""
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
-        self._words = protocol.file.words
-        self._folder = studio.shelf.folder
+        self._words, self._folder = protocol.file.words, studio.shelf.folder
         self._shown = SittingMessage(
             question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise
         )
@@ -60,7 +57,8 @@ class PerceptionSitting:
         self._read: dict[str, str] = {}  # each answer as the participant reads it
         self._remark = ""  # on the last answer
         self._held = 0  # buttons
-        self._trial: Trial | None = None
+        self._trial: Trial
+        self._block: int | None = None  # of the trial before
         self._attempt = self._interval = 0  # at this trial, from 1; in this attempt, from 0
         self._over = True  # the interval: the needle may do what it wants
         self._through = self._uncover_at = math.inf  # depth behind the judged membrane, m; on the clock of `ticks`
@@ -79,8 +77,7 @@ class PerceptionSitting:
 
     def respond(self, question: int, answer: str) -> None:
         now = self._shown
-        number = now.any_number and _NUMBER.fullmatch(answer) and float(answer) > 0
-        if question == now.question and (number or answer in self._read):
+        if question == now.question and (answer in self._read or (now.any_number and self._protocol.takes(answer))):
             then, self._then = self._then, lambda _: None  # once: a defect in it must not save an answer twice
             then(self._read.get(answer, answer))
 
@@ -105,26 +102,27 @@ class PerceptionSitting:
 
     def _welcome(self) -> None:
         assert self._answers
-        kept, words = self._answers.kept, self._words
-        done = words.resumed.format(done=kept, trials=len(self._answers.course)) if kept else ""
-        self._say(done or self._protocol.file.instruction or words.begins, GO, lambda _: self._next())
+        sentence = self._protocol.file.instruction or self._words.begins
+        if kept := self._answers.kept:
+            sentence = self._words.resumed.format(done=kept, trials=len(self._answers.course))
+        self._say(sentence, GO, lambda _: self._next())
 
     def _next(self) -> None:
         assert self._answers
-        before, self._trial, self._attempt = self._trial, self._answers.next(), 0
-        if self._trial is None:
+        if (trial := self._answers.next()) is None:
             self._say(self._words.last)
-        elif before and self._trial.block != before.block:
+            return
+        before, self._block, self._trial, self._attempt = self._block, trial.block, trial, 0
+        if before in (None, trial.block):
+            self._begin()
+        else:
             seconds = self._protocol.file.trials.break_s
             rest = "" if seconds is None else f" {self._words.rest.format(seconds=f'{float(seconds):g}')}"
             self._say(self._words.block + rest, GO, lambda _: self._begin())
-        else:
-            self._begin()
 
     def _begin(self) -> None:
         """The run of a trial."""
-        studio, trial = self._studio, self._trial
-        assert trial
+        studio = self._studio
         fault = studio.run.fault  # of the run between the trials
         if fault != Fault.none or not studio.arming.armed:  # only a person turns it on again, docs/safety.md
             words = self._words.fault.format(why=describe(fault)) if fault != Fault.none else self._words.off
@@ -132,9 +130,10 @@ class PerceptionSitting:
             return
         self._attempt += 1
         self._interval = 0
-        about = {"participant": self._participant, "trial": trial.number}
+        about = {"participant": self._participant, "trial": self._trial.number}
         try:
-            self._discard()
+            for file in recordings(self._folder, self._participant, f"{self._trial.number:04d}"):
+                file.unlink(missing_ok=True)  # of attempts before, and what a kill left of one
             studio.begin_activity(self, self._scene(), None, self._name(), about)
         except (PuncturaError, OSError) as bad:
             self._again(sentence_of(bad))
@@ -148,17 +147,9 @@ class PerceptionSitting:
         self._begin()
 
     def _name(self) -> str:
-        assert self._trial
         return f"{self._participant}-{self._trial.number:04d}-{self._attempt}"
 
-    def _discard(self) -> None:
-        """The recordings of this trial: of attempts before, and what a kill left of one. Raises OSError."""
-        assert self._trial
-        for file in recordings(self._folder, self._participant, f"{self._trial.number:04d}"):
-            file.unlink(missing_ok=True)  # one that is being finished gets another name
-
     def _scene(self) -> Loaded:
-        assert self._trial
         return replace(self._base, scene=self._trial.intervals[self._interval].scene)
 
     def _explore(self) -> None:
@@ -174,11 +165,11 @@ class PerceptionSitting:
         return READY_S + float(self._studio.run.loop.limits.ramp_time)
 
     def _sentence(self) -> str:
-        assert self._trial and self._answers
+        assert self._answers
         words, course = self._words, self._answers.course
-        sentence = words.interval if self._protocol.intervals > 1 else words.trial
-        at, interval = course.at + 1, self._interval + 1
-        sentence = sentence.format(trial=at, trials=len(course), interval=interval, stroke=words.stroke)
+        sentence = (words.interval if self._protocol.intervals > 1 else words.trial).format(
+            trial=course.at + 1, trials=len(course), interval=self._interval + 1, stroke=words.stroke
+        )
         return f"{words.practice} {sentence}" if self._trial.kind == "practice" else sentence
 
     def _explored(self) -> None:
@@ -198,7 +189,6 @@ class PerceptionSitting:
     def _finish(self, reason: str = "") -> None:
         """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
         self._say(self._words.wait)
-        assert self._trial
         recording, scenes = self._folder / f"{self._name()}.parquet", [one.scene for one in self._trial.intervals]
 
         def finished(_: str, status: RecorderStatus) -> None:  # in a thread of its own
@@ -233,7 +223,7 @@ class PerceptionSitting:
 
     def _save(self, answer: str, felt: list[Felt]) -> None:
         trial, protocol = self._trial, self._protocol
-        assert trial and self._answers
+        assert self._answers
         try:
             self._answers.add(trial, answer, felt, [f"{self._name()}.parquet"])
         except (PuncturaError, OSError) as bad:

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
-from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, YES_N, with_levels, written
+from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, YES_N, line, with_levels, written
 from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol
 from punctura.perception.analysis import Estimate, person
-from punctura.perception.course import Course
+from punctura.perception.course import Course, Kind, Line
 from punctura.perception.observer import Senses
 from punctura.perception.power import power, with_trials
 from punctura.perception.psychometric import Shape, posterior
-from punctura.perception.report import json_of, words
+from punctura.perception.report import words
 from punctura.ready_protocols import protocol_files
 from scipy.optimize import minimize
 from scipy.special import ndtr, ndtri
@@ -55,17 +56,14 @@ def senses(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Senses]:
     return {name: Senses(load_protocol(written(folder, text))) for name, text in TEXTS.items()}
 
 
-def lines(protocol: Protocol, counted: object) -> list[dict[str, object]]:
-    """A session of constant stimuli whose counted answers are those of a function of level and trial."""
-    found = []
-    for i in range(20):
-        for level in protocol.levels:
-            hit, position = bool(counted(level, i)), i % protocol.intervals  # type: ignore[operator]
-            answer = [*protocol.answers, "1", "1"][position if hit else 1 - position]
-            found.append(
-                {"kind": "trial", "block": 0, "level": level, "position": position, "answer": answer, "felt": []}
-            )
-    return found
+def session(protocol: Protocol, counted: Callable[[float, int], object]) -> list[Line]:
+    """Constant stimuli whose counted answers are those of a function of level and trial."""
+    names = list(protocol.answers)
+    return [
+        line(level, i % protocol.intervals, names[(i % protocol.intervals) ^ (not counted(level, i))])
+        for i in range(20)
+        for level in protocol.levels
+    ]
 
 
 def test_the_posterior_agrees_with_the_largest_likelihood() -> None:
@@ -122,7 +120,7 @@ def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> Non
     senses, random = Senses(protocol, 8), np.random.default_rng(1)
     for shown in (*protocol.stimuli, protocol.references[0]):
         felt = [0.9 * shown.level + 0.02 * random.standard_normal() for _ in range(8)]
-        senses.known[id(shown)] = [replace(shown.felt, drop=drop) for drop in felt]
+        senses.known[id(shown)] = [shown.felt.model_copy(update={"drop": drop}) for drop in felt]
     found = coverage(protocol, Observer(weber=0.08), 20, 1, senses)
     assert all(found[what].covered >= 0.8 and found[what].without <= 0.1 for what in ("threshold", "jnd"))
     assert abs(found["jnd"].bias) < 0.15
@@ -150,11 +148,11 @@ def test_thresholds_in_newtons_are_those_of_what_was_felt(tmp_path: Path) -> Non
     ],
 )
 def test_answers_that_determine_none_give_no_number(
-    senses: dict[str, Senses], name: str, counted: object, repeats: float, reason: str
+    senses: dict[str, Senses], name: str, counted: Callable[[float, int], object], repeats: float, reason: str
 ) -> None:
     protocol = senses[name].protocol
-    session = lines(protocol, counted)
-    found = person(protocol, "", session * int(repeats) or session[: int(repeats * len(session))])
+    given = session(protocol, counted)
+    found = person(protocol, "", given * int(repeats) or given[: int(repeats * len(given))])
     assert reason in found.reason and found.threshold is found.jnd is found.weber is None
 
 
@@ -162,24 +160,25 @@ def test_answers_that_determine_none_give_no_number(
 def test_a_staircase_that_does_not_settle_gives_no_threshold(senses: dict[str, Senses], wrong: set[int]) -> None:
     """It walks to the hardest level, and all further answers are right."""
     file = senses["right"].protocol.file.model_copy(update={"method": "staircase"})
-    course, session = Course(replace(senses["right"].protocol, file=file), 0), []
+    course, given = Course(replace(senses["right"].protocol, file=file), 0), []
     while (trial := course.next()) is not None:
         answer = ("first", "second")[trial.position ^ (trial.number in wrong)]
-        line = {"kind": "trial", "block": 0, "level": trial.shown.level, "position": trial.position, "felt": []}
-        session.append(line | {"answer": answer})
+        given.append(line(trial.shown.level, trial.position, answer))
         course.add(trial, answer)
-    assert "outside the levels" in person(course.protocol, "", session).reason
+    assert "outside the levels" in person(course.protocol, "", given).reason
 
 
-def answered(cells: dict[tuple[str, int, str], tuple[int, int]]) -> list[dict[str, object]]:
+Cells = dict[tuple[Kind, int, str], tuple[int, int]]
+OTHER = {"yes": "no", "first": "second", "second": "first"}
+
+
+def answered(cells: Cells, level: float = 0.001) -> list[Line]:
     """cells: kind, position of the comparison and answer; how often that answer was given, and in how many trials."""
-    other = {"yes": "no", "first": "second", "second": "first"}
     return [
-        {"kind": kind, "block": 0, "level": 0.001, "position": position, "felt": [],
-         "answer": answer if i < hits else other[answer]}
+        line(level, position, answer if i < hits else OTHER[answer], kind)
         for (kind, position, answer), (hits, total) in cells.items()
         for i in range(total)
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.parametrize(("name", "dprime"), [("yes", 1.0), ("compares", np.sqrt(0.5))])
@@ -188,7 +187,7 @@ def test_dprime_and_criterion(senses: dict[str, Senses], name: str, dprime: floa
 
     A bias towards the first interval is in the criterion; the share of right answers alone would give 0.62 for 0.71.
     """
-    cells = {("trial", 0, "first"): (841, 1000), ("trial", 1, "first"): (500, 1000)}
+    cells: Cells = {("trial", 0, "first"): (841, 1000), ("trial", 1, "first"): (500, 1000)}
     if name == "yes":
         cells = {("trial", 0, "yes"): (841, 1000), ("catch", 0, "yes"): (500, 1000)}
     (found,) = person(senses[name].protocol, "", answered(cells)).detection
@@ -201,7 +200,7 @@ def test_dprime_and_criterion(senses: dict[str, Senses], name: str, dprime: floa
     assert " (at most -" in words(found.criterion)
     assert person(senses[name].protocol, "", answered(cells)[:1004]).detection == []  # 4 answers are no rate
     if name == "compares":  # a catch trial below the reference is right if the reference is chosen
-        below, clear = (answered({("catch", 0, "second"): (1, 1)})[0] | {"level": level} for level in (0.0, 0.9))
+        below, clear = (line(level, 0, "second", "catch") for level in (0.0, 0.9))
         assert person(senses[name].protocol, "", [below, clear]).catch_counted == 1
 
 
@@ -209,7 +208,7 @@ def test_dprime_has_no_bias_though_every_second_session_has_no_false_alarm(sense
     """Of 40 and 40 trials: 86 % of yes, 2 % of false alarms. All answers that are likely, each with its probability."""
     true, mean, held = ndtri(0.86) - ndtri(0.02), 0.0, 0.0
     for hits, alarms in product(range(26, 41), range(7)):
-        cells = {("trial", 0, "yes"): (hits, 40), ("catch", 0, "yes"): (alarms, 40)}
+        cells: Cells = {("trial", 0, "yes"): (hits, 40), ("catch", 0, "yes"): (alarms, 40)}
         (found,) = person(senses["yes"].protocol, "", answered(cells)).detection
         chance = binom.pmf(hits, 40, 0.86) * binom.pmf(alarms, 40, 0.02)
         mean += chance * found.dprime.value
@@ -219,13 +218,12 @@ def test_dprime_has_no_bias_though_every_second_session_has_no_false_alarm(sense
 
 def test_answers_that_change_at_once_give_a_jnd_no_lower_bound(senses: dict[str, Senses]) -> None:
     protocol = senses["compares"].protocol
-    found = person(protocol, "", lines(protocol, lambda level, i: level > 0.41))
+    together = analyse(protocol, {"P01": session(protocol, lambda level, i: level > 0.41)})
+    (found,) = together.people
     assert found.threshold is not None and 0.36 < found.threshold.low < found.threshold.high < 0.46
     assert words(Estimate(1e-17, -1.0, 1.0)) == "0 (-1 to 1)"
     assert words(found.jnd).startswith("at most 0.0") and words(found.weber).startswith("at most ")
-    assert '"jnd": [\n    null,\n    null' in json_of(
-        analyse(protocol, {"P01": lines(protocol, lambda x, i: x > 0.41)})
-    )
+    assert '"jnd":[null,null,0.0' in together.model_dump_json()
 
 
 def test_false_alarms_of_catch_trials_are_in_the_fit() -> None:
@@ -247,20 +245,17 @@ def test_a_catch_trial_is_an_answer_at_its_level(senses: dict[str, Senses], name
         away = (level - reference) / truth
         return float(1 - 0.5 ** (1 + away**1.5) if name == "right" else ndtr(away * 0.67449))
 
-    def cells(kind: str, level: float, share: float, count: int) -> list[dict[str, object]]:
-        return [
-            line | {"level": level}
-            for position, answer in enumerate(protocol.answers)
-            for line in answered({(kind, position, answer): (round(share * count / 2), count // 2)})
-        ]
+    def cells(kind: Kind, level: float, share: float) -> list[Line]:
+        hits = round(share * 200), 200
+        return answered({(kind, i, answer): hits for i, answer in enumerate(protocol.answers)}, level)
 
-    session = [line for level in protocol.levels for line in cells("trial", level, told(level), 400)]
+    given = [one for level in protocol.levels for one in cells("trial", level, told(level))]
     doubtful = reference + truth * (1.4 if name == "right" else 1.474)  # told in 84 %
     assert told(doubtful) == pytest.approx(0.84, abs=0.005)
     for level, share, lapse in ((doubtful, told(doubtful), (0.0, 0.06)), (reference + 10 * truth, 0.9, (0.12, 0.25))):
         if truth == 0.06 and level != doubtful:
             continue  # levels at which nobody lapses, and a catch trial at which one does, are no function
-        found = person(protocol, "", session + cells("catch", level, share, 400))
+        found = person(protocol, "", given + cells("catch", level, share))
         assert found.jnd is not None and found.lapse is not None and lapse[0] < found.lapse.value < lapse[1]
         if truth == 0.1:
             assert words(found.jnd).startswith("at most 0.")
@@ -272,18 +267,17 @@ def test_the_slope_of_ratings_and_the_exponent_of_magnitudes(tmp_path: Path) -> 
     """Against NumPy's straight line; numbers of a power of the level; no slope without two ratings."""
     text = COMPARES.replace("reference = 0.41\n", "")
     protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"rating"')))
-    shown = lines(protocol, lambda level, i: True)
-    x = np.array([float(str(line["level"])) for line in shown])
+    x = np.tile(protocol.levels, 20)
     y = 5 + np.arange(len(x)) % 3 + np.round(4 * (x - 0.5))
-    found = person(protocol, "", [line | {"answer": str(int(n))} for line, n in zip(shown, y, strict=True)])
+    found = person(protocol, "", [line(level, 0, f"{n:.0f}") for level, n in zip(x, y, strict=True)])
     (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
     assert found.slope is not None and found.threshold is None and found.slope.value == pytest.approx(slope)
     half = 1.980272 * np.sqrt(covariance[0, 0])  # Student's t of 118 degrees of freedom, 97.5 %
     assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
-    same = person(protocol, "", [line | {"answer": "5"} for line in shown])
+    same = person(protocol, "", [line(level, 0, "5") for level in x])
     assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
     protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"magnitude"')))
-    found = person(protocol, "", [line | {"answer": f"{30 * n**0.8:.6g}"} for line, n in zip(shown, x, strict=True)])
+    found = person(protocol, "", [line(level, 0, f"{30 * level**0.8:.6g}") for level in x])
     assert found.slope is not None and found.slope == pytest.approx((0.8, 0.8, 0.8), rel=1e-4)
 
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from protocols import ADJUST, COMPARES, RIGHT, YES, written
+from protocols import ADJUST, COMPARES, RIGHT, YES, line, written
 from punctura.perception import Observer, Protocol, Simulation, load_protocol
 from punctura.perception.analysis import person
 from punctura.perception.course import Course, Quest, Staircase, Trial
@@ -82,11 +82,10 @@ def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str
 def test_an_adjustment_ends_where_both_intervals_seem_equal(load: Callable[[str], Protocol]) -> None:
     protocol = load(ADJUST)
     session = Simulation(protocol, Observer(weber=0.06)).run(0, 3)
-    found, settings = person(protocol, "", session), [line for line in session if line["answer"] == "equal"]
-    levels = [float(str(line["level"])) for line in settings]
+    found, levels = person(protocol, "", session), [one.level for one in session if one.answer == "equal"]
     assert found.trials == len(levels) == 12 and found.threshold is not None and found.jnd is not None
-    starts = [session[0], *(line for before, line in pairwise(session) if before["answer"] == "equal")]
-    assert sorted(float(str(line["level"])) for line in starts) == [0.14] * 6 + [0.68] * 6
+    starts = [session[0], *(one for before, one in pairwise(session) if before.answer == "equal")]
+    assert sorted(one.level for one in starts) == [0.14] * 6 + [0.68] * 6
     assert found.threshold.low < 0.41 < found.threshold.high and found.threshold.value == pytest.approx(np.mean(levels))
     assert found.jnd.value == pytest.approx(0.67449 * np.std(levels, ddof=1), rel=1e-4)
     assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(11 / 3.81575), rel=1e-4)  # chi square, 2.5 %
@@ -99,11 +98,10 @@ def test_settings_that_the_levels_make_give_no_jnd(
     """20 settings at the level that is nearest to what a person wants; too few levels, and steps that are too wide."""
     loaded, random = load(ADJUST), np.random.default_rng(1)
     protocol = replace(loaded, stimuli=tuple(replace(loaded.stimuli[0], level=float(level)) for level in levels))
-    line = {"kind": "trial", "block": 0, "position": 1, "answer": "equal", "felt": []}
     for _ in range(20):
         wanted = random.normal(0.33 if sd < 0.03 else 0.3, sd, 20)
         nearest = levels[np.abs(levels[:, None] - wanted).argmin(axis=0)]
-        found = person(protocol, "", [line | {"level": float(level)} for level in nearest])
+        found = person(protocol, "", [line(level, 1, "equal") for level in nearest])
         if sd > 0.03:
             assert found.jnd is None and found.reason == "settings reach the end of the levels: show more"
         else:

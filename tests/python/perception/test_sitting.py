@@ -13,6 +13,7 @@ from protocols import COMPARES, RIGHT, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import Session, SessionError, load_protocol, read_session
+from punctura.perception.course import Line
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
 from punctura.record.header import from_text
@@ -85,8 +86,8 @@ def raised(error: Exception) -> None:
     raise error
 
 
-def saved(folder: Path) -> list[dict]:
-    return read_session(folder / "out" / "P01.jsonl")
+def saved(folder: Path) -> list[Line]:
+    return read_session(folder / "out" / "P01.jsonl")[1]
 
 
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
@@ -104,19 +105,18 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
         person.answers("zweite")
         person.reads("Durchgang 2")
-        name = read_session(tmp_path / "out" / "P01.jsonl")[1]["recordings"][0].removesuffix(".parquet")
-        status, why = person.page.get(f"/api/recordings/{name}", "DELETE")
+        (first,) = saved(tmp_path)
+        status, why = person.page.get(f"/api/recordings/{first.recordings[0].removesuffix('.parquet')}", "DELETE")
         assert status == 409 and b"A participant's session runs." in why
-    header, first = saved(tmp_path)
-    assert header["consent"] and first["answer"] == "second"
-    recording = open_recording(tmp_path / "out" / first["recordings"][0])
+    assert read_session(tmp_path / "out" / "P01.jsonl")[0].consent and first.answer == "second"
+    recording = open_recording(tmp_path / "out" / first.recordings[0])
     levels = [0.41, 0.41]
-    levels[first["position"]] = first["level"]
+    levels[first.position] = first.level
     exchanged = recording.table()["new_scenes"].drop_null().to_pylist()[-1][-1]
     felt_scenes = [recording.info.scene, from_text(exchanged, tmp_path)]
     assert [one.membranes[0].membrane.precompression for one in felt_scenes] == levels
-    assert all(felt["drop"] > 0.1 for felt in first["felt"])  # how much depends on the hand
-    assert all(felt["scale"] == 0.8 and felt["pops"] == 1 for felt in first["felt"])
+    assert all(felt.drop > 0.1 for felt in first.felt)  # how much depends on the hand
+    assert all(felt.scale == 0.8 and felt.pops == 1 for felt in first.felt)
     with sat(tmp_path, text) as (person, _):
         person.reads("1 of 120 trials are done.")
 
@@ -204,7 +204,7 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         monkeypatch.setattr(Session, "add", add)
         person.answers("Go on")
         person.reads("Trial 2")
-    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes"]
+    assert [line.answer for line in saved(tmp_path)] == ["yes"]
 
 
 def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_answer(
@@ -233,7 +233,7 @@ def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_an
         assert not person.page.ask(**given)["ok"]
         monkeypatch.undo()
         assert person.page.ask(**given)["ok"]
-    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["yes", "no"]
+    assert [line.answer for line in saved(tmp_path)] == ["yes", "no"]
 
 
 def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -277,4 +277,4 @@ def test_the_buttons_of_a_device_answer_and_an_answer_to_another_question_does_n
             person.page.ask(**{"do": "respond", "question": person.now["question"], "answer": "2", **wrong})
         person.answers("2.5")
         person.reads("Trial 2")
-    assert [line["answer"] for line in saved(tmp_path)[1:]] == ["2.5"]
+    assert [line.answer for line in saved(tmp_path)] == ["2.5"]
