@@ -87,7 +87,13 @@ def number(cell: Any, decimal: Decimal = ".", asked: bool = False) -> float:
 
 
 def numbers(cells: Sequence[Any], decimal: Decimal = ".", asked: bool = False) -> NDArray[np.float64]:
-    """Cells as numbers, NaN for a cell that is none. Raises DoubtfulNumber, as number() does."""
+    """Cells as numbers, NaN for a cell that is none. Raises DoubtfulNumber, as number() does.
+
+    A column among decimal commas may have decimal points: `0.25` beside no comma shows them.
+    """
+    if decimal == "," and not asked and decimal_in([cells]) == ".":
+        shown = (cell for cell in cells if isinstance(cell, str) and _POINTS.fullmatch(cell) and _shown(cell)[1])
+        decimal = "." if next(shown, None) else ","
     if decimal == "." or not any(isinstance(cell, str) and "." in cell for cell in cells):
         try:
             return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)

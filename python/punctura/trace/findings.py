@@ -69,17 +69,21 @@ def examine(trace: Trace) -> Trace:
 
 _NO_INSERTION = Finding(
     "no_insertion",
-    "the depth falls all the way, and the force is gone at its end: this is a withdrawal; record the insertion, too. "
+    "the depth falls all the way, and the force of its beginning goes: a withdrawal alone; record the insertion, too. "
     "If the depth counts down while the needle goes in, begin in air, where the force is zero",
     severe=True,
 )
 
 
 def _only_withdrawn(force: Array) -> bool:
-    """Whether a force (n,), N, that is measured on one way ends in air, and does not begin there."""
-    begin, end = abs(baseline(force)), abs(baseline(force[::-1]))
+    """Whether a force (n,), N, that is measured on one way ends in air, and does not begin there.
+
+    Or it is let go at the beginning: an insertion has little force there, and its force changes later.
+    """
+    begin, soon, end = (baseline(part) for part in (force, force[len(force) // 4 :], force[::-1]))
     height = float(np.max(np.abs(force)))
-    return end < max(_SMALL * height, 2 * noise_of(force)) < 0.3 * begin
+    let_go = abs(begin) > 0.5 * height and abs(soon - begin) > 0.5 * abs(end - begin) > 4 * noise_of(force)
+    return let_go or abs(end) < max(_SMALL * height, 2 * noise_of(force)) < 0.3 * abs(begin)
 
 
 def _pushed(force: Array) -> bool:

@@ -13,6 +13,9 @@ from punctura.trace.units import is_unit, split_cell, split_name, unit_of
 
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 
+_NEAR = 8  # rows above the numbers, in which their names and units may stand
+_MOST_ABOVE = 200  # rows, in which a table of results may stand above that of the samples
+
 
 def is_number(cell: Any, decimal: Decimal = ".") -> bool:
     """Whether a cell holds a number, as text with this decimal mark or as such."""
@@ -28,8 +31,8 @@ def is_number(cell: Any, decimal: Decimal = ".") -> bool:
 def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     """The index of the first row of numbers: it and the next row have `width` cells and at least two numbers.
 
-    len(rows) if there is none. A report above the table may contain single numbers. Numbers with units (`0.35 N`) count
-    if there is no row of plain ones: they can be names of columns.
+    len(rows) if there is none. A report above the table may contain single numbers, and a table of results that is
+    shorter. Numbers with units (`0.35 N`) count if there is no row of plain ones: they can be names of columns.
     """
     least = min(2, width)
     full = [len(row) == width and sum(is_number(cell, decimal) for cell in row) >= least for row in rows]
@@ -41,16 +44,25 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
                 j for j in range(i, min(i + 4, len(rows)))
                 if not _is_heading(rows[j]) and not (_is_label(rows[j], decimal) and not _is_label(rows[-1], decimal))
             )  # fmt: skip
-            return next(table, i)  # i, if each row has texts such as units
+            first = next(table, i)  # i, if each row has texts such as units
+            for j in range(first + 1, min(len(rows), _MOST_ABOVE)):  # the same names again begin a block of this table
+                if _names_columns(rows[j]) and rows[j] not in rows[:j] and sum(full[j:]) > sum(full[first:j]):
+                    return j + first_row(rows[j:], width, decimal)
+            return first
     bare = [[split_cell(cell)[0] if isinstance(cell, str) else cell for cell in row] for row in rows]
     return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
 
 
 def _is_heading(row: Row) -> bool:
     """Whether texts name two of the columns, or two units. Numbers may stand beside them, such as those of formulas."""
+    return (
+        _names_columns(row) or sum(is_unit(cell) for cell in row if isinstance(cell, str) and not is_number(cell)) > 1
+    )
+
+
+def _names_columns(row: Row) -> bool:
     texts = [cell for cell in row if isinstance(cell, str) and not is_number(cell)]
-    roles = {role_named(split_name(text)[0]) for text in texts} - {""}
-    return len(roles) > 1 or sum(map(is_unit, texts)) > 1
+    return len({role_named(split_name(text)[0]) for text in texts} - {""}) > 1
 
 
 def _is_label(row: Row, decimal: Decimal = ".") -> bool:
@@ -75,7 +87,11 @@ def column_names(above: Sequence[Row], width: int, least: int | None = None) -> 
     rows = list(above)
     while rows and (_is_label(rows[-1]) or not any(str(cell or "").strip(" -") for cell in rows[-1])):
         rows.pop()
+    near = [cells for row in rows[-_NEAR:] if (cells := _texts(row, width, least or width))]
+    named = [cells for cells in near if _names_columns(cells)]
     fitting = [_texts(row, width, least or width) for row in rows[-2:]]
+    if named and named[-1] not in fitting:  # channels, ranges and sensors stand between the names and the units
+        fitting = [named[-1], *[cells for cells in near if _are_units(cells)][-1:]]
     names = next(iter(fitting[-1:]), None)
     if names is not None and len(fitting) == 2 and (other := fitting[0]) is not None:
         if _are_units(names) or _are_units(other):

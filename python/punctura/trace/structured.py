@@ -85,8 +85,9 @@ def _parts(where: str, name: str, value: Any, units: Mapping[str, Any]) -> Itera
     where: the object of `value`. name: its key there. units: of the columns, by name.
     """
     here = f"{where}.{name}".strip(".")
-    if isinstance(value, dict) and {"columns", "data"} <= set(value):  # as pandas writes it
-        value = [value["columns"], *value["data"]]
+    if isinstance(value, dict) and isinstance(value.get("columns"), list):  # as pandas writes it
+        below = next((value[key] for key in ("data", "values", "rows") if isinstance(value.get(key), list)), None)
+        value = value if below is None else [value["columns"], *below]
     if (
         isinstance(value, dict)
         and value

@@ -84,6 +84,9 @@ def unreadable(path: Path, kind: str, error: Exception) -> TraceError:
         head = file.read(8)
     if not head:
         return TraceError(f"{path}: is empty; export or copy it again")
+    if kind.startswith("XLS") and head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"<"):
+        text = "is a page of HTML or XML, although its name ends in"
+        return TraceError(f"{path}: {text} {path.suffix}. Open it in a spreadsheet program, and save it as XLSX or CSV")
     if not head.startswith(_BEGINNINGS[kind]):
         return TraceError(
             f"{path}: is no {kind} file, although its name ends in {path.suffix}. If it is another kind of file, give "

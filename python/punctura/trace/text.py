@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_DELIMITERS = (";", "\t", ",")  # a comma may be the decimal point of the others
+_DELIMITERS = (";", "\t", "|", ",")  # a comma may be the decimal point of the others
 _BLOCK = 1 << 22  # bytes: more than a line has
 _MOST_BROKEN = 1_000_000  # rows with another number of cells than the last ones
 

@@ -260,6 +260,10 @@ def test_a_withdrawal_alone_is_no_insertion_with_a_reversed_depth(tmp_path):
     out = made[int(np.argmax(made.depth)) + 100 :]  # from within the rest on
     [finding] = read_trace(write_csv(tmp_path / "a.csv", columns_of(out))).findings
     assert finding.kind == "no_insertion" and finding.severe
+    inside = made[int(np.argmax(made.depth)) + 150 :]
+    inside = inside[: int(np.argmax(inside.depth < 7e-3))]  # the needle stays in the tissue, which pulls
+    [finding] = read_trace(write_csv(tmp_path / "a.csv", columns_of(inside))).findings
+    assert finding.kind == "no_insertion" and finding.severe
     into = made[: int(np.argmax(made.depth))]
     for force in (into.force, -into.force, into.force + 1.0):
         read = read_trace(write_csv(tmp_path / "b.csv", columns_of(into, depth_mm=-1e3 * into.depth, force_N=force)))

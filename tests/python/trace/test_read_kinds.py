@@ -83,6 +83,7 @@ JSON = {
     "rows": [{"time_s": t, "depth_mm": d, "ft": {"force_N": f}} for t, d, f in ROWS],
     "rows in an object": {"about": "x", "samples": [{"time_s": t, "depth_mm": d, "force_N": f} for t, d, f in ROWS]},
     "as pandas splits it": {"columns": ["time_s", "depth_mm", "force_N"], "index": [0], "data": ROWS},
+    "names and rows": {"about": "x", "columns": ["time_s", "depth_mm", "force_N"], "values": ROWS},
     "as pandas writes it": {
         name: {str(i): value for i, value in enumerate(column)}
         for name, column in (("time_s", TIME), ("depth_mm", DEPTH), ("force_N", FORCE))

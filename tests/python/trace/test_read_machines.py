@@ -29,6 +29,22 @@ FILES = {
     "report above the table": text_of(
         ["Results Table 1", "Label,liver 3", "Speed,300,mm/min", "", "Time (sec),Extension (mm),Load (N)"], "{},{},{}"
     ).encode(),
+    "a table of results of the same width above": text_of(
+        [
+            "Results Table 1",
+            ",Maximum Load (N),At (mm)",
+            "1,0.61,8.1",
+            "Mean,0.61,8.1",
+            "",
+            "Time,Extension,Load",
+            "s,mm,N",
+        ],
+        "{},{},{}",
+    ).encode(),
+    "channels and ranges between names and units": text_of(
+        ["Channel,Time,Extension,Load", "No,CH1,CH2,CH3", "Range,10,10,10", ",,,", "Unit,s,mm,N"], "7,{},{},{}"
+    ).encode(),
+    "bars between the columns": text_of(["Time (s)|Depth (mm)|Force (N)"], "{}|{}|{}").encode(),
     "German, of a Windows program": text_of(
         ["Prüfbericht;12", "Datum;23.11.2026", "", "Prüfzeit;Standardweg;Standardkraft", "s;mm;N"], "{};{};{}", True
     ).encode("cp1252"),
@@ -124,6 +140,13 @@ def test_a_number_of_two_readings_is_asked_for(tmp_path):
     assert read_trace(path, decimal=",").force == pytest.approx(1000 * np.arange(1, 9) + 234)
     path.write_text("\n".join(MIXED).replace(",5", ".5").replace(",25", ".25").replace("1.5;", '"1,5";'))
     assert read_trace(path, decimal=".").force[:2] == pytest.approx([2.234, 3.234])  # without row 1
+
+
+def test_a_column_among_decimal_commas_may_have_decimal_points(tmp_path):
+    (tmp_path / "a.csv").write_text(
+        "\n".join(["time_s;depth_mm;force_N", *(f"{k},5;{k},25;0.{k}" for k in range(1, 9))])
+    )
+    assert read_trace(tmp_path / "a.csv").force == pytest.approx(np.arange(1, 9) / 10)
 
 
 @pytest.mark.parametrize(("thousands", "force"), [("1.234,5", 1234.5), ("1.234.567,5", 1234567.5), ("1,5e3", 1500.0)])
