@@ -22,18 +22,18 @@ for name in ${names[@]+"${names[@]}"}; do
     failed=$((failed + 1))
     continue
   fi
-  start=$SECONDS code=0 said=integration-$name.log
-  (cd "$here/$name" && exec bash ./test.sh) >"$log/$said" 2>&1 </dev/null || code=$?
+  start=$SECONDS code=0 file=integration-$name.log
+  (cd "$here/$name" && exec bash ./test.sh) >"$log/$file" 2>&1 </dev/null || code=$?
   case $code in
     0) passed=$((passed + 1)); echo "$name: passed, $((SECONDS - start)) s" ;;
     77)
       missing=$((missing + 1))
-      echo "note: $name was not tested, its tool chain is missing: $(tail -n 1 "$log/$said")"
+      echo "note: $name was not tested, its tool chain is missing: $(tail -n 1 "$log/$file")"
       ;;
     *)
       failed=$((failed + 1))
-      echo "$name: FAILED with status $code after $((SECONDS - start)) s. The end of build/log/$said:"
-      tail -n 40 "$log/$said" | sed 's/^/    /'
+      echo "$name: FAILED with status $code after $((SECONDS - start)) s. The end of build/log/$file:"
+      tail -n 40 "$log/$file" | sed 's/^/    /'
       ;;
   esac
 done

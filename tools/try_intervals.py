@@ -48,6 +48,7 @@ from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
 from scipy.signal import lfilter
+from scipy.stats import binomtest
 
 DEVICE_HZ = 1600
 FAR = 10.0  # times the true value, and the true value over it
@@ -236,13 +237,14 @@ def tried(seed: int, given: Conditions) -> list[Row]:
 
 
 def summary(rows: Sequence[Row]) -> list[str]:
-    """A line for each parameter, and one for all."""
+    """A line for each parameter, and one for all; with the share's interval of 95 % (Clopper and Pearson)."""
     lines = []
     for kind in [*dict.fromkeys(row.kind for row in rows), "all"]:
-        of = [row for row in rows if kind in (row.kind, "all")]
+        of = [row for row in rows if row.kind == kind or (kind == "all" and row.kind not in ("walls", "warned"))]
         shown = [row for row in of if row.identifiable]
         held, missed = sum(row.held for row in shown), sum(row.hidden for row in shown)
-        share = f"{100 * held / len(shown):5.1f} %" if shown else "-"
+        low, high = binomtest(held, len(shown)).proportion_ci(method="exact") if shown else (0, 1)
+        share = f"{100 * held / len(shown):5.1f} % [{100 * low:.1f}, {100 * high:.1f}]" if shown else "-"
         lines.append(
             f"{kind:20} {share} of {len(shown):5} intervals hold the truth; not identifiable: {len(of) - len(shown)}; "
             f"hidden: {sum(row.hidden for row in of)}, of these called identifiable: {missed}"
