@@ -9,8 +9,6 @@ licence and are not part of Punctura. Their displacement reaches 0.30 m; it is t
 The scene is examples/bovine_liver.toml.
 """
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys

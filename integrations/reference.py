@@ -8,8 +8,6 @@ FOLDER/motion.f64    one row a tick, 9 doubles, little-endian: position (m), axi
 FOLDER/depths.f64    2 doubles a tick: depth (m), force of Proxy1d (N) in the scene's first membrane
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -26,8 +26,6 @@ the correlation of the noise, but not the drift. A hidden parameter must be call
 made only where a parameter is called identifiable. It takes about 0.3 s of a processor a trace.
 """
 
-from __future__ import annotations
-
 import argparse
 import multiprocessing
 from collections.abc import Sequence

@@ -6,8 +6,6 @@
 The tests of the page and of the documentation start some hundred commands; to import their packages takes a second.
 """
 
-from __future__ import annotations
-
 import atexit
 import gc
 import importlib

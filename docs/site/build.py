@@ -6,8 +6,6 @@
 Any warning of Sphinx is an error: a broken link, a notebook that fails, a docstring that cannot be read.
 """
 
-from __future__ import annotations
-
 import shutil
 import sys
 from pathlib import Path

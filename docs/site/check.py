@@ -1,7 +1,5 @@
 """A built page must work without a network, and every link inside the site must have its target."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from html.parser import HTMLParser

@@ -1,7 +1,5 @@
 """The words of a field, for the reference: the comment beside it or above it in its class."""
 
-from __future__ import annotations
-
 import ast
 import enum
 import io

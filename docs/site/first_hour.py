@@ -9,8 +9,6 @@ A step is a block of commands, a comment `<!-- DEVICE, STATE -->` and a block of
 terminal. The devices are those of tests/fakes, STATE is one of STATES.
 """
 
-from __future__ import annotations
-
 import asyncio
 import ctypes
 import json

@@ -4,8 +4,6 @@ The pictures are made at every build and committed nowhere, because that is chea
 the two examples that run in real time.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os

@@ -3,8 +3,6 @@
 The pages stand where they stand in the tree, so that a link which works on a code host works in the site, too.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

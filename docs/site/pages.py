@@ -1,7 +1,5 @@
 """The generated pages of the reference: Python, the command line, the keys of a scene file."""
 
-from __future__ import annotations
-
 import importlib
 import re
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 It writes the texts of all pages into one script, which search.html alone loads, and only if it is a file.
 """
 
-from __future__ import annotations
-
 import json
 from html import escape
 from html.parser import HTMLParser

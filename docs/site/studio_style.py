@@ -1,7 +1,5 @@
 """The generated page that shows the studio's colours, letters and spaces, read from its style sheet."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from html import escape

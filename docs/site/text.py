@@ -1,7 +1,5 @@
 """Plain text as reStructuredText."""
 
-from __future__ import annotations
-
 import re
 
 CODE = re.compile(r"(``[^`]+``|`[^`]+`)")

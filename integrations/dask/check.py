@@ -1,7 +1,5 @@
 """A study on a local Dask cluster whose workers go away midway: every row once, equal to the undisturbed run."""
 
-from __future__ import annotations
-
 import os
 import signal
 import socket

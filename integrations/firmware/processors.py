@@ -1,7 +1,5 @@
 """The emulated processors: how to start each, and the registers of its calling convention."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from unicorn import UC_ARCH_ARM, UC_ARCH_RISCV, UC_MODE_MCLASS, UC_MODE_RISCV32, UC_MODE_THUMB, Uc

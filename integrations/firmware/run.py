@@ -3,8 +3,6 @@
 python run.py cortex-m4f|riscv32 knob.elf libknob.so NM-OUTPUT
 """
 
-from __future__ import annotations
-
 import ctypes
 import struct
 import sys

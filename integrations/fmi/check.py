@@ -3,8 +3,6 @@
 python integrations/fmi/check.py REFERENCE FOLDER
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

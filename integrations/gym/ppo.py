@@ -8,8 +8,6 @@ decides whether to go on or to stop: a hand that chooses any speed by chance har
 there is no success to learn from.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from dataclasses import replace

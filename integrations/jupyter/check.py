@@ -3,8 +3,6 @@
 python integrations/jupyter/check.py FOLDER
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import runpy

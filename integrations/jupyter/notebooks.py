@@ -3,8 +3,6 @@
 python integrations/jupyter/notebooks.py [FOLDER]       by default notebooks/; it needs jupytext
 """
 
-from __future__ import annotations
-
 import ast
 import sys
 from pathlib import Path

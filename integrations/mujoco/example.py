@@ -5,8 +5,6 @@
 The robot knows the place of the skin and its own force sensor. It does not know where the vein is.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

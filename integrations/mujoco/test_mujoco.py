@@ -1,7 +1,5 @@
 """punctura.mujoco with the real MuJoCo. Run by test.sh."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """punctura.mujoco in several threads, and beside models that are loaded meanwhile. Run by test.sh."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """Wrong use of punctura.mujoco is refused or told, with the real MuJoCo. Run by test.sh."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import punctura.mujoco as pm

@@ -3,8 +3,6 @@
 python integrations/openigtlink/check.py REFERENCE
 """
 
-from __future__ import annotations
-
 import socket
 import sys
 import threading

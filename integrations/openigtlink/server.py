@@ -11,8 +11,6 @@ Answers each NeedleToReference with:
                         force has newtons
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Callable

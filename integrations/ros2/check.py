@@ -3,8 +3,6 @@
 python integrations/ros2/check.py REFERENCE
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

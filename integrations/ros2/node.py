@@ -3,8 +3,6 @@
 python integrations/ros2/node.py --ros-args -p scene:=venipuncture
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 
 import numpy as np

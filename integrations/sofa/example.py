@@ -3,8 +3,6 @@
 runSofa -l SofaPython3 integrations/sofa/example.py
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import Sofa

@@ -3,8 +3,6 @@
 It needs SOFA with SofaPython3, and punctura in its Python. example.py shows a whole scene of SOFA.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -9,8 +9,6 @@ FOLDER/NAME.frames   the frame of each tick, with the force of the other solver;
                      little-endian)
 """
 
-from __future__ import annotations
-
 import json
 import struct
 import sys

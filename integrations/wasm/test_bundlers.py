@@ -5,8 +5,6 @@
 Needs punctura.wasm and embedded.mjs (build.sh) and npm's registry.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

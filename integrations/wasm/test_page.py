@@ -5,8 +5,6 @@
 FOLDER: made by tools/build_backend/static_page.py. Each wait is for something to be seen.
 """
 
-from __future__ import annotations
-
 import sys
 import threading
 from collections.abc import Iterator

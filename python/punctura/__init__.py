@@ -4,8 +4,6 @@ A program that needs only the physics loads only the physics: the other modules,
 imported when one of their names is used.
 """
 
-from __future__ import annotations
-
 import importlib
 from typing import TYPE_CHECKING, Any
 

@@ -1,7 +1,5 @@
 """Tells a defect of Punctura from a mistake of its user, and keeps the traceback of a defect in a log."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import os

@@ -1,7 +1,5 @@
 """What to tell about a run's devices: what they say themselves, and ticks that their listeners' buffers cannot hold."""
 
-from __future__ import annotations
-
 from punctura._core import Device, Fault, ServoLoop, ThumbLoop, describe
 
 SHORT_S = 1.0  # a reader with a shorter delay must lose no tick

@@ -1,7 +1,5 @@
 """The exceptions of Punctura. A ConfigurationError lists all problems at once."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple

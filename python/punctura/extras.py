@@ -1,7 +1,5 @@
 """Packages that Punctura needs only for some of its parts."""
 
-from __future__ import annotations
-
 import importlib
 import re
 import sys

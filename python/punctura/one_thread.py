@@ -1,7 +1,5 @@
 """Linear algebra in one thread: for matrices as small as those of a fit, more threads cost far more than they save."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager

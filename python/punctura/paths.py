@@ -1,7 +1,5 @@
 """Where the installed package keeps its C++ headers and CMake files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 __all__ = ["cmake_dir", "include_dir"]

@@ -1,7 +1,5 @@
 """Shows the progress of a long computation: a function of the caller, or a bar on the terminal or in a notebook."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager

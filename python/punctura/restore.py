@@ -1,7 +1,5 @@
 """Restores pickled proxies, insertions and fleets."""
 
-from __future__ import annotations
-
 from typing import Any
 
 

@@ -1,7 +1,5 @@
 """The program `punctura`. It imports the package late: before that, Ctrl-C ends the program without a traceback."""
 
-from __future__ import annotations
-
 import os
 import signal
 from types import FrameType

@@ -1,7 +1,5 @@
 """The studio as a person meets it: `punctura run` in a process of its own, its page in Chromium."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What a person does at the page, in words; every wait is for something to be seen, none for a time."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

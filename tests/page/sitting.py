@@ -5,8 +5,6 @@
 Fails if an answered trial is lost, or another one comes than is planned. docs/perception.md has a result.
 """
 
-from __future__ import annotations
-
 import random
 import re
 import sys

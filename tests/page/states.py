@@ -1,7 +1,5 @@
 """The states of the page, one after the other in two visits: what a test checks in all of them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

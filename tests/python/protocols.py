@@ -1,7 +1,5 @@
 """Small protocols. Only the scenes of SOLVED are solved for, which takes long."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from pathlib import Path

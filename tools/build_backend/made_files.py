@@ -1,7 +1,5 @@
 """A folder in which a program changes only the files that it has made: their list stands in the folder."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

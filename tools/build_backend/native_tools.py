@@ -1,7 +1,5 @@
 """Checks for a C++20 compiler and Python's headers, which pip cannot install and CMake reports unclearly."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

@@ -3,8 +3,6 @@
 It reports a missing compiler with its remedy, and builds the studio's page before packaging.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

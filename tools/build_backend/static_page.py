@@ -5,8 +5,6 @@
 The core runs in the page as WebAssembly. Needs Node, punctura in this Python, and the tools of integrations/wasm.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import shutil

@@ -4,8 +4,6 @@ As a program: builds it. --modules only installs web/node_modules. --requires pr
 first for a build without isolation, and --node those for any work in web/.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re

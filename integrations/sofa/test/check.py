@@ -1,7 +1,5 @@
 """The controller's forces are those of the core.   python check.py REFERENCE"""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The controller in SOFA itself: the forces of the core, and the example.   python in_sofa.py REFERENCE"""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 A new verb needs only a new file. Files whose names begin with an underscore are not verbs.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Sequence

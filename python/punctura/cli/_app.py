@@ -3,8 +3,6 @@
 _status.py has the statuses.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import os

@@ -1,7 +1,5 @@
 """`punctura identify --hold-out`: how well K06 and its rivals predict what they did not see."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Literal

@@ -1,7 +1,5 @@
 """The lines on standard error."""
 
-from __future__ import annotations
-
 import typer
 
 

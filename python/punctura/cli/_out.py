@@ -1,7 +1,5 @@
 """Checks of output files before a computation."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The option --rival of `punctura simulate` and `punctura run`."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Makes the standard streams safe: neither a closed stream nor an unread one changes what a command does."""
 
-from __future__ import annotations
-
 import errno
 import io
 import os

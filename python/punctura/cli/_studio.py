@@ -1,7 +1,5 @@
 """`punctura run`: the studio in a browser."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from pathlib import Path

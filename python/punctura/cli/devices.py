@@ -1,7 +1,5 @@
 """`punctura devices`: lists the devices, and why a device is not available."""
 
-from __future__ import annotations
-
 import json
 from typing import Annotated
 

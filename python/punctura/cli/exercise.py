@@ -1,7 +1,5 @@
 """`punctura exercise`: lists exercises, and scores a recorded attempt."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Annotated, Literal

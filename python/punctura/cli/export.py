@@ -1,7 +1,5 @@
 """`punctura export`: a recording for other programs."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`punctura export-fmu`: a scene for a simulator with the Functional Mock-up Interface."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

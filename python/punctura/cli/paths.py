@@ -1,7 +1,5 @@
 """`punctura paths`: where the C++ headers and the CMake files are."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import typer

@@ -1,7 +1,5 @@
 """`punctura place`: measures the place of the device in the scene, with the force off."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """`punctura replay`: computes a recording's forces again from its inputs."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`punctura run`: runs a scene on a device, with a page or in this terminal."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

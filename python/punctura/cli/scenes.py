@@ -1,7 +1,5 @@
 """`punctura scenes`: the scenes that come with the package."""
 
-from __future__ import annotations
-
 import json
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """`punctura schema`: the scene file as JSON Schema."""
 
-from __future__ import annotations
-
 import json
 
 import typer

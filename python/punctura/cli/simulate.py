@@ -1,7 +1,5 @@
 """`punctura simulate`: the model's force for a recorded motion."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from pathlib import Path

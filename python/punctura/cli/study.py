@@ -1,7 +1,5 @@
 """`punctura study`: many trials of a scene whose numbers follow a plan file."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from pathlib import Path

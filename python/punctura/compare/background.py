@@ -1,7 +1,5 @@
 """The priority of a computation beside a run: the loop and the page come first."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import os

@@ -1,7 +1,5 @@
 """Everything about a comparison in one zip file, ready to cite."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

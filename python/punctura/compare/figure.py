@@ -1,7 +1,5 @@
 """A figure of a comparison, for print."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes

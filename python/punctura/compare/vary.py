@@ -1,7 +1,5 @@
 """The same motion through scenes that differ in one parameter."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ The schema checks single keys. The functions below check combinations of keys. T
 itself, even if other values in the same table are not.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import NamedTuple

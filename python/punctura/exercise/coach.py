@@ -3,8 +3,6 @@
 Each function makes the sentences about one thing, whatever the goals are; goals add their own.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 

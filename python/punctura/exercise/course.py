@@ -1,7 +1,5 @@
 """What all goals of an exercise ask together, and which of it a device cannot show."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

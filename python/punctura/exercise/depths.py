@@ -1,7 +1,5 @@
 """Checks that the depths of an exercise file leave a space that a needle can reach, and suit the length of its tip."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """An exercise: the schema of its file (docs/exercises.md), its text, and the exercise after checking."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The keys of an exercise file's start and space, and the types of all keys. Keys end in the unit of their number."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any
 

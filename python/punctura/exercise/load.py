@@ -1,7 +1,5 @@
 """Reads and checks exercise files, and scores recordings."""
 
-from __future__ import annotations
-
 import os
 from datetime import datetime, timezone
 from functools import cache

@@ -1,7 +1,5 @@
 """Measures an attempt. Goals, sentences, tables and plots use the same numbers (docs/exercises.md)."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Collection, Mapping

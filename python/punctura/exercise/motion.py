@@ -1,7 +1,5 @@
 """How the needle moves: its path, its mean velocity, and how long it is in the space."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 

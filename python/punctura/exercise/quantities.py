@@ -1,7 +1,5 @@
 """Numbers as words, for sentences."""
 
-from __future__ import annotations
-
 import math
 from decimal import ROUND_HALF_UP, Decimal
 

@@ -1,7 +1,5 @@
 """The result of an attempt at an exercise."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Annotated, Literal
 

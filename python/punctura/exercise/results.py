@@ -1,7 +1,5 @@
 """Saves results as JSON files in one folder."""
 
-from __future__ import annotations
-
 import os
 import re
 import secrets

@@ -1,7 +1,5 @@
 """Sentences about an attempt for the student. Their numbers come from the measures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from punctura._core import Fault, describe

@@ -1,7 +1,5 @@
 """Writes results as xAPI statements (xAPI 1.0.3, ADL; the format is also that of IEEE 9274.1.1), one JSON a line."""
 
-from __future__ import annotations
-
 import json
 import uuid
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """When a syringe's plunger gives way under the thumb, and what follows: the loss of resistance of the second hand."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 

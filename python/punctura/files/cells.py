@@ -1,7 +1,5 @@
 """Cells of CSV tables with words that a person chose, such as names."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

@@ -3,8 +3,6 @@
 They check only the type of a value. The core checks its bounds.
 """
 
-from __future__ import annotations
-
 from decimal import Decimal
 from typing import Annotated, Any
 

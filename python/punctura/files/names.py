@@ -1,7 +1,5 @@
 """Names of files as text, and the folder of the user's files."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -1,7 +1,5 @@
 """Checks keys and types of TOML tables by a pydantic model and reports problems in plain words."""
 
-from __future__ import annotations
-
 import difflib
 import json
 import os

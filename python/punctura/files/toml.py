@@ -1,7 +1,5 @@
 """Reads TOML files: scenes, limits, placements, exercises. Errors are plain sentences."""
 
-from __future__ import annotations
-
 import re
 import stat
 import sys

@@ -1,7 +1,5 @@
 """Units in the key names of a file, and the exact conversion to and from SI."""
 
-from __future__ import annotations
-
 from decimal import Context, Decimal
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Writes files: checks the path first, and a file appears only when it is complete."""
 
-from __future__ import annotations
-
 import errno
 import os
 import secrets

@@ -1,7 +1,5 @@
 """The variables of an FMU and its model description, in the words of FMI 2.0 and 3.0."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """Writes an FMU: a zip file with the model description, the binary of this system and the scene."""
 
-from __future__ import annotations
-
 import io
 import os
 import platform

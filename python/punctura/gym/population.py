@@ -1,7 +1,5 @@
 """Scenes that differ as people do: ranges over the numbers of a scene."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import Literal, NamedTuple

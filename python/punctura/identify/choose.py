@@ -1,7 +1,5 @@
 """Chooses the model that a trace asks for: the extensions of K06, and the number of its membranes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Which of two models a trace prefers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is said when a model does not explain its trace, or explains it by the wrong means."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 

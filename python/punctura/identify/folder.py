@@ -1,7 +1,5 @@
 """Identifies every trace of a folder: in parallel, resumable; a broken file never stops the others."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import multiprocessing

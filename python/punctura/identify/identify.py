@@ -1,7 +1,5 @@
 """Identification of a trace: from force against depth to membranes with intervals."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal

@@ -1,7 +1,5 @@
 """The keys of the JSON that an identification gives: of `--json`, and of the files of a folder of traces."""
 
-from __future__ import annotations
-
 from typing import Literal, TypeAlias, TypedDict
 
 

@@ -1,7 +1,5 @@
 """The one-page report of an identification: trace, fit, residuals, profile, models, and what the data cannot tell."""
 
-from __future__ import annotations
-
 import base64
 import io
 from html import escape

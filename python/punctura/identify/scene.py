@@ -1,7 +1,5 @@
 """The scene of an identified trace."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Literal

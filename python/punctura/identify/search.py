@@ -1,7 +1,5 @@
 """What all fits of a trace share while its model is chosen."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice

@@ -4,8 +4,6 @@ Least squares take slow noise up into the tissue. With a noise that is known, th
 the tissue from it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from punctura.identify.air_noise import AirNoise

@@ -1,7 +1,5 @@
 """A force that a program has smoothed or filled in: only samples that are independent count, and a time is in doubt."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What a trace cannot tell, and which experiment would tell it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

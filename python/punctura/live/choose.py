@@ -1,7 +1,5 @@
 """Selects the device, and fits a scene to it; also the default motion of a simulated hand."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Mapping

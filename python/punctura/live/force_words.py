@@ -3,8 +3,6 @@
 The page has the same names of the forces (web/src/state/scale.ts).
 """
 
-from __future__ import annotations
-
 MODEL_FORCE = "model force"
 
 

@@ -1,7 +1,5 @@
 """What to know before a run: the friction that the device needs, and ticks that a buffer cannot hold."""
 
-from __future__ import annotations
-
 import math
 
 from punctura._core import Plant, ServoLoop, needed_damping

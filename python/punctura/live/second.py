@@ -1,7 +1,5 @@
 """The second device: under the thumb, on the plunger of the scene's syringe (docs/syringe.md)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

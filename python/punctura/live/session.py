@@ -1,7 +1,5 @@
 """Runs a scene on a device until it is over, and leaves the device without force on every way out."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """Ends a run in time, even if the terminal or the caller's code blocks."""
 
-from __future__ import annotations
-
 import math
 import threading
 import time

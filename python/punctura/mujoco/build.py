@@ -1,7 +1,5 @@
 """Finds sites and bodies in a MuJoCo model and attaches needles to them."""
 
-from __future__ import annotations
-
 import weakref
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Reads and checks protocol files: all problems at once, each with its place, its value and what is right."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Callable, Iterator

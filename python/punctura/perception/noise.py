@@ -1,7 +1,5 @@
 """Masking noise: without it, a participant hears the device's motors."""
 
-from __future__ import annotations
-
 import io
 import wave
 

@@ -1,7 +1,5 @@
 """A protocol: the schema of its file, and the protocol after checking (docs/perception.md)."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What a hand feels of one stimulus, simulated or recorded, and the scene for a wanted number of newtons."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What a participant reads beside the protocol's own texts, and its checks."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 

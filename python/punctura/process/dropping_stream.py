@@ -1,7 +1,5 @@
 """A text stream that never waits for its reader: text that is not read in time is dropped and counted."""
 
-from __future__ import annotations
-
 import atexit
 import io
 import math

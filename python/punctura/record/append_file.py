@@ -1,7 +1,5 @@
 """An append-only file that stays valid up to its last complete write."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys

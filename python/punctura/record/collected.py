@@ -3,8 +3,6 @@
 This module imports nothing from this package, because Arrow may hold the file until after the interpreter exits.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 

@@ -3,8 +3,6 @@
 Each header field has a line here. Unknown keys are kept unchanged, because another version may have written them.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The status of a recording, and the conversion of the growing .part file to the final Parquet file."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Sequence
 from contextlib import suppress

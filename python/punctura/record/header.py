@@ -1,7 +1,5 @@
 """The description of a run: JSON in the file's metadata, completed when the recording is finished."""
 
-from __future__ import annotations
-
 import datetime
 import hashlib
 import json

@@ -1,7 +1,5 @@
 """Exports to MCAP for robotics viewers: one JSON message per tick, with a JSON Schema. Needs the package `mcap`."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator, Mapping

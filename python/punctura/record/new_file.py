@@ -4,8 +4,6 @@ A file gets its name only after its first bytes are written, so a kill leaves no
 lock when the process ends, so it shows whether a process still writes the file.
 """
 
-from __future__ import annotations
-
 import os
 import secrets
 import sys

@@ -1,7 +1,5 @@
 """Finished recordings: Parquet files with the run description in their metadata."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reads an unfinished recording: its process was killed or is still running."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Exports a recording, finished or not, to CSV, Parquet or MCAP: as a file, or piece by piece."""
 
-from __future__ import annotations
-
 import itertools
 import os
 from collections.abc import Callable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """Finds the scene that a tick took; the tick's snapshot only says that it took one."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections import deque

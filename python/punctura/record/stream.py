@@ -3,8 +3,6 @@
 Any Arrow library reads the first stream. A further stream begins when a new scene has more membranes.
 """
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Iterator, Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """The writer thread, and the queue of what it has to write. Only this thread waits for the disk."""
 
-from __future__ import annotations
-
 import errno
 import os
 import threading

@@ -1,7 +1,5 @@
 """One insertion and withdrawal: force over depth with the band behind it. An overview of the model."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 

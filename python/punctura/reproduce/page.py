@@ -1,7 +1,5 @@
 """The page of figures, one file, usable offline, light and dark, and the figures' data as CSV."""
 
-from __future__ import annotations
-
 import platform
 import re
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The colours of figures and page: the colour-blind-safe palette of Okabe and Ito (2008), with a dark variant."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

@@ -1,7 +1,5 @@
 """Makes all figures, their data and the page: `punctura reproduce`."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

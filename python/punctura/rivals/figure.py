@@ -1,7 +1,5 @@
 """The figure of a comparison: the trace with each model, and what each model leaves."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

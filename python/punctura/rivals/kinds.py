@@ -1,7 +1,5 @@
 """The rivals by name, with their numbers, as the compiled core lists them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal

@@ -1,7 +1,5 @@
 """What a trace shows of each layer, and from it the first values for a fit of a rival."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

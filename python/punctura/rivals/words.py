@@ -1,7 +1,5 @@
 """A comparison as a table, as sentences, and as JSON."""
 
-from __future__ import annotations
-
 import math
 from typing import TypedDict
 

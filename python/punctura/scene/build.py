@@ -1,7 +1,5 @@
 """Converts a scene file's tables to the core's scene in SI, and a scene to the text of a file."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Collection, Iterator, Mapping

@@ -4,8 +4,6 @@ The schema finds wrong types, the core finds wrong values, in one pass: what the
 core, which checks the others. It also warns of numbers that are possible, but probably in another unit.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """The ready scenes of the package."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from pathlib import Path

@@ -3,8 +3,6 @@
 The core also checks the values. Bounds and defaults of the JSON Schema come from the same table.
 """
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias

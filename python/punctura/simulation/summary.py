@@ -1,7 +1,5 @@
 """What a simulation says of itself: its summary, and a note on an impossible depth."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 DEEPEST = 0.5  # m

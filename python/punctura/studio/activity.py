@@ -1,7 +1,5 @@
 """Something that follows the ticks of a run, such as an attempt at an exercise."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

@@ -3,8 +3,6 @@
 Each request runs in a thread of the server's pool, so that a long file blocks neither a page nor the worker.
 """
 
-from __future__ import annotations
-
 import math
 import threading
 from collections.abc import Awaitable, Callable

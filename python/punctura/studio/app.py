@@ -1,7 +1,5 @@
 """The studio's addresses; docs/studio-server.md describes them."""
 
-from __future__ import annotations
-
 import asyncio
 import re
 from collections.abc import AsyncIterator, Callable, Sequence

@@ -5,8 +5,6 @@ on again: no new run, scene or exercise does. "Turn force off" works from any th
 was made before it.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 

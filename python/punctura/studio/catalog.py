@@ -1,7 +1,5 @@
 """The scenes and exercises that a page can choose."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """Carries out the requests of a page: slow preparations in any thread, then a job in the worker's thread."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from concurrent.futures import Future

@@ -1,7 +1,5 @@
 """Computations in processes of their own, and answers that are sent while they are made."""
 
-from __future__ import annotations
-
 import itertools
 import os
 import queue

@@ -4,8 +4,6 @@ A stranger is a connection that has not sent the token. Strangers have a limit o
 the connections of the user, who has the token. Everything here runs on the server's event loop, behind gate.py.
 """
 
-from __future__ import annotations
-
 import asyncio
 import time
 from collections.abc import Callable, Iterator

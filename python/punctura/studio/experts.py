@@ -1,7 +1,5 @@
 """Which recording is the expert's run of an exercise. A file beside the results keeps it."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import os

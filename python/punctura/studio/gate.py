@@ -4,8 +4,6 @@ It uses only what asyncio and RFC 6455 document, so that any server that listens
 behind it, in any version.
 """
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Callable
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """The loop's health in numbers for the page, and what happened at a fault in words."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

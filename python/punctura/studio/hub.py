@@ -3,8 +3,6 @@
 Everything here runs on the server's event loop; the worker's thread uses `post`.
 """
 
-from __future__ import annotations
-
 import asyncio
 import itertools
 import time

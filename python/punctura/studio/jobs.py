@@ -1,7 +1,5 @@
 """The worker's queue of jobs, and the threads that finish recordings meanwhile."""
 
-from __future__ import annotations
-
 import queue
 import threading
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The laboratory: comparisons and variations, computed by a process of their own at low priority."""
 
-from __future__ import annotations
-
 import json
 import re
 import tempfile

@@ -1,7 +1,5 @@
 """Limits for connections, requests and unread data: see docs/studio-server.md. A page stays far below them."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """One page's socket: its requests in, its messages and frames out."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import json

@@ -1,7 +1,5 @@
 """A scene and the tables of its file: the page's editor shows the tables, the loop runs the scene."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Requests of a page that makes or opens exercises. All run in any thread, and touch no run."""
 
-from __future__ import annotations
-
 import base64
 
 from punctura.errors import MISSING, ConfigurationError, Problem

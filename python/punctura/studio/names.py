@@ -1,7 +1,5 @@
 """User-given names as file names: valid on every system, and never outside a folder."""
 
-from __future__ import annotations
-
 import unicodedata
 
 LONGEST = 80  # characters

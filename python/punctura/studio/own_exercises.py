@@ -1,7 +1,5 @@
 """The folder of the exercises that were made in the page. A page cannot read or write files outside of it."""
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 

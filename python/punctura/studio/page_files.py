@@ -1,7 +1,5 @@
 """The files of the page, compressed for a browser that takes it."""
 
-from __future__ import annotations
-
 import gzip
 import os
 from functools import lru_cache

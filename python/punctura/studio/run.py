@@ -1,7 +1,5 @@
 """One run: a scene on a device from tick 0 on, with its ring of snapshots and an optional recording."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One run after another on one device, each with its recording and its activity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from punctura._core import Fault

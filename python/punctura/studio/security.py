@@ -3,8 +3,6 @@
 ASGI middleware around everything else. A refusal has a status and a sentence. See docs/studio-server.md.
 """
 
-from __future__ import annotations
-
 import ipaddress
 import secrets
 from collections.abc import Callable, Iterable

@@ -1,7 +1,5 @@
 """Runs the studio: the worker, and the server on loopback, until a signal comes or the duration is over."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import secrets

@@ -3,8 +3,6 @@
 A tick runs on the device's thread and never waits for this one.
 """
 
-from __future__ import annotations
-
 import math
 import threading
 import time

@@ -1,7 +1,5 @@
 """The folder of recordings. Nothing outside it is read or written."""
 
-from __future__ import annotations
-
 import datetime
 import os
 import re

@@ -4,8 +4,6 @@
 wire/identified.py.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import sys

@@ -1,7 +1,5 @@
 """Files of measured traces that a page sends: what they hold, and their identification, in a process of its own."""
 
-from __future__ import annotations
-
 import asyncio
 import shutil
 import tempfile

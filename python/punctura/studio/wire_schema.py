@@ -1,7 +1,5 @@
 """All that goes between studio and page as JSON Schema, and as TypeScript: `python -m`, --typescript."""
 
-from __future__ import annotations
-
 import json
 import sys
 from typing import Any

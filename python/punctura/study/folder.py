@@ -1,7 +1,5 @@
 """The folder of a study: its chunks, the table of all trials, and the lock."""
 
-from __future__ import annotations
-
 import errno
 import json
 import os

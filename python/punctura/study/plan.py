@@ -3,8 +3,6 @@
 Values are in SI units, because their paths are those of a scene.
 """
 
-from __future__ import annotations
-
 import difflib
 import math
 import os

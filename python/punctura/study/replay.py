@@ -1,7 +1,5 @@
 """One trial of a study again, alone, as a scene file and a recording."""
 
-from __future__ import annotations
-
 import os
 import time
 from pathlib import Path

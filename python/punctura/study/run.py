@@ -1,7 +1,5 @@
 """Runs the trials of a plan in chunks; a later run goes on where an earlier one ended."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """Reads recordings of ROS (a .bag file, an .mcap file, a folder of ROS 2), by rosbags."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Iterator
 from pathlib import Path

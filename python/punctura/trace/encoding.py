@@ -4,8 +4,6 @@ A header of ten letters is too short for the statistics of a language (charset-n
 files), but its names are known: the right encoding is the one in which they stand.
 """
 
-from __future__ import annotations
-
 import codecs
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reads HDF5 files by h5py; a MAT file of version 7.3 is one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Where the numbers of a table begin, and the names of its columns above them, as testing machines write them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from typing import Any

@@ -5,8 +5,6 @@ A LabVIEW measurement file (LVM) becomes one plain table. "Specification for the
 ***End_of_Header***.
 """
 
-from __future__ import annotations
-
 import codecs
 import io
 from collections.abc import Callable, Iterator, Sequence

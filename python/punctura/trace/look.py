@@ -1,7 +1,5 @@
 """What a file seems to hold, before it is read as a trace: for a program that asks its user what is not stated."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 from pathlib import Path

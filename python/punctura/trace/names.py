@@ -1,8 +1,6 @@
 # names in other letters
 """Names of the columns depth, force and time, in the languages of those who make and use testing machines."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 

@@ -1,7 +1,5 @@
 """The numbers of a trace that need no model: peak, gradient, pops, work."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

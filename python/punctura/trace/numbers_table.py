@@ -1,7 +1,5 @@
 """The numbers of traces as a table, and what a folder of traces has in common."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, fields, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Refuses MAT and XLSX files that expand beyond what a trace may hold, before their readers take memory for it."""
 
-from __future__ import annotations
-
 import struct
 import zipfile
 import zlib

@@ -3,8 +3,6 @@
 The tables are the sheets of a workbook or the groups of a TDMS file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reads a table of numbers from a file of any kind that is known."""
 
-from __future__ import annotations
-
 from math import prod
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # ruff: noqa: RUF001  # names in other letters
 """Units as they stand in files of testing machines, and their size in SI units."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 

@@ -1,7 +1,5 @@
 """Reads the sheets of a workbook: XLSX by openpyxl, XLS by xlrd."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Thresholds of observers that are known, and no number that the answers do not determine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import product

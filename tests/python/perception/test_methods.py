@@ -1,7 +1,5 @@
 """Which level comes next: constant stimuli, the weighted up-down staircase, QUEST+, adjustment."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace

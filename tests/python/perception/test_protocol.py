@@ -1,7 +1,5 @@
 """Protocol files: what is wrong is said at once, with its place, before a person sits down."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

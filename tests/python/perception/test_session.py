@@ -1,7 +1,5 @@
 """Sessions on disk: no answered trial is lost, and the order goes on as planned. The verbs, from protocol to report."""
 
-from __future__ import annotations
-
 import csv
 import errno
 import io

@@ -1,7 +1,5 @@
 """A session in the studio without a browser: what the page is told, what it answers, what the needle did."""
 
-from __future__ import annotations
-
 import errno
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """mypy accepts the examples and correct user programs, and finds mistakes. tools/check_pyright.sh asks pyright."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

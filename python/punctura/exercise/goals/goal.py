@@ -1,7 +1,5 @@
 """The base of all goals, and their judges: a limit holds until missed, an achievement is open until met."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, ClassVar, NamedTuple, Protocol, TypeAlias
 

@@ -1,7 +1,5 @@
 """Parts of messages in both directions. SI, unless a key ends in another unit."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field

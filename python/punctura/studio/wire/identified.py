@@ -1,7 +1,5 @@
 """The lines that the studio sends while it identifies a trace: one JSON object in each line, SI units."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field

@@ -1,7 +1,5 @@
 """Messages from the server to its pages."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

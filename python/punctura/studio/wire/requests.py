@@ -1,7 +1,5 @@
 """Requests of a page. Each gets a Reply with the same id, except a target."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter

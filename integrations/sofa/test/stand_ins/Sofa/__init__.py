@@ -1,7 +1,5 @@
 """A stand-in for what the controller uses of SofaPython3, for tests without SOFA. No copy of its code."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import SimpleNamespace
