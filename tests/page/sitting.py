@@ -101,38 +101,39 @@ def act(page: Page) -> int:
     return (int(found[1]) - 1 if found[1] else int(found[2])) if found else 0
 
 
-def main(kills: int = 25, seed: int = 1) -> None:
-    draw, folder = random.Random(seed), Path(tempfile.mkdtemp())
-    (folder / "mine.toml").write_text(PROTOCOL)  # no session: the page asks for consent
-    with sync_playwright() as playwright:
-        browser = launch(playwright)
+def main(kills: int = 10, seed: int = 1) -> None:
+    draw = random.Random(seed)
+    with tempfile.TemporaryDirectory() as place, sync_playwright() as playwright:
+        folder, browser = Path(place), launch(playwright)
+        (folder / "mine.toml").write_text(PROTOCOL)  # no session: the page asks for consent
         studio = sitting(folder)
-        with opened(browser, studio.url, bench=False) as page:
-            page.route("**/api/noise.wav", lambda route: route.abort())  # 1.7 MB, which no kill concerns
-            page.locator(".stage-sentence", has_text="agree").wait_for()
-            begun = time.monotonic()
-            while not on_disk(folder):
-                act(page)
-            longest = 2 * (time.monotonic() - begun)  # to a kill: what two trials take on this computer
-            for kill in range(kills):
-                if kill:
-                    page.locator(".stage-sentence", has_text=BEGUN).wait_for()
-                before = len(on_disk(folder))
-                killer = threading.Timer(draw.uniform(0.0, longest), studio.kill)
-                killer.start()
-                answers = [act(page)]
-                while killer.is_alive():
-                    answers.append(act(page))
-                kept = len(on_disk(folder))
-                assert kept >= max(answers)
-                print(f"kill {kill + 1}: {kept} of {TRIALS} trials are on the disk", flush=True)
-                longest *= 1.5 if kept == before else 0.8  # so every second kill comes after an answer
-                studio = sitting(folder, studio.port)
-            while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
-                act(page)
-        studio.end()
-        browser.close()
-    assert len(on_disk(folder)) == TRIALS
+        try:
+            with opened(browser, studio.url, bench=False) as page:
+                page.route("**/api/noise.wav", lambda route: route.abort())  # 1.7 MB, which no kill concerns
+                page.locator(".stage-sentence", has_text="agree").wait_for()
+                begun = time.monotonic()
+                while not on_disk(folder):
+                    act(page)
+                longest = 2 * (time.monotonic() - begun)  # to a kill: what two trials take on this computer
+                for kill in range(kills):
+                    if kill:
+                        page.locator(".stage-sentence", has_text=BEGUN).wait_for()
+                    before = len(on_disk(folder))
+                    killer = threading.Timer(draw.uniform(0.0, longest), studio.kill)
+                    killer.start()
+                    answers = [act(page)]
+                    while killer.is_alive():
+                        answers.append(act(page))
+                    kept = len(on_disk(folder))
+                    assert kept >= max(answers)
+                    print(f"kill {kill + 1}: {kept} of {TRIALS} trials are on the disk", flush=True)
+                    longest *= 1.5 if kept == before else 0.8  # so every second kill comes after an answer
+                    studio = sitting(folder, studio.port)
+                while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
+                    act(page)
+        finally:
+            studio.end()
+        assert len(on_disk(folder)) == TRIALS
     print(f"{kills} kills, {TRIALS} answered trials, none lost, order as planned")
 
 

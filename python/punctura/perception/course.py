@@ -68,8 +68,9 @@ class Quest:
     """QUEST+: the level whose answer is expected to leave the least entropy (A. B. Watson, Journal of Vision 17(3):10,
     2017), here that of the wanted parameters alone (N. Prins, Journal of Vision 13(7):3, 2013).
 
-    Wanted are place and width, of right answers only the place. Lapses and false alarms are summed over, else they
-    would cost trials. A bias towards one interval is left out: both intervals have the comparison as often.
+    Wanted is what the report gives: the place, and the width if there is a JND. What else there is, such as lapses, is
+    summed over, else it would cost trials. A bias towards one interval is left out: both intervals have the comparison
+    as often.
     """
 
     def __init__(self, protocol: Protocol) -> None:
@@ -77,7 +78,7 @@ class Quest:
         shape = replace(shape, bends=False, rest="" if shape.rest == "bias" else shape.rest)
         grid = Grid(shape, protocol.levels, QUEST)
         self._p, self._weight = grid.probability(protocol.levels), grid.prior
-        self._wanted = QUEST.place if protocol.shape.one_sided else QUEST.place * QUEST.width
+        self._wanted = QUEST.place * (QUEST.width if protocol.compares else 1)
         self.level = self._best()
 
     def _best(self) -> int:

@@ -147,14 +147,14 @@ class Simulation:
     def dprime(self, i: int) -> float:
         """What endless answers at level i would give, lapses included; NaN if a session like this one leaves less than
         half an answer of a kind to expect, so that no rule can know it."""
-        protocol, count = self.protocol, self.protocol.file.trials.per_level or 0
-        shown = protocol.stimuli[i]
+        protocol, shown, given = self.protocol, self.protocol.stimuli[i], self.protocol.file.trials
+        counts = [(given.per_level or 0) / 2] * 2
         if protocol.catch is not None and protocol.file.task == "yes_no":
-            rates = [self.chance(shown, None, 0, True), 1 - self.chance(protocol.catch, None, 0, True)]
+            rates = np.array([self.chance(shown, None, 0, True), 1 - self.chance(protocol.catch, None, 0, True)])
+            counts = [given.per_level or 0, given.catch * given.blocks]
         else:
-            rates = [self.chance(shown, protocol.references[i], side, True) for side in (1, -1)]
-            count //= 2
-        known = count * min(min(rate, 1 - rate) for rate in rates) >= 0.5
+            rates = np.array([self.chance(shown, protocol.references[i], side, True) for side in (1, -1)])
+        known = (counts * np.minimum(rates, 1 - rates)).min() >= 0.5
         return float(ndtri(rates).sum() / np.sqrt(protocol.intervals)) if known else np.nan
 
     def curve(self) -> tuple[Array, Array]:

@@ -28,19 +28,23 @@ class Coverage(NamedTuple):
 
 
 def with_trials(protocol: Protocol, trials: int) -> Protocol:
-    """The protocol with about as many scored trials, in one block."""
-    given = protocol.file.trials
-    changed: dict[str, int | None] = {"total": trials, "per_level": None}
-    if protocol.file.method == "constant":
-        changed = {"per_level": max(1, round(trials / len(protocol.levels))), "total": None}
-    file = protocol.file.model_copy(update={"trials": given.model_copy(update=changed | {"blocks": 1})})
+    """The protocol with about as many scored trials, and all its catch trials, in one block."""
+    given, constant = protocol.file.trials, protocol.file.method == "constant"
+    changed = {
+        "total": None if constant else trials,
+        "per_level": max(1, round(trials / len(protocol.levels))) if constant else None,
+        "blocks": 1,
+        "catch": given.catch * given.blocks,
+    }
+    file = protocol.file.model_copy(update={"trials": given.model_copy(update=changed)})
     return replace(protocol, file=file)
 
 
 def coverage(
     protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None
 ) -> dict[str, Coverage]:
-    """By threshold, jnd and dprime, that of each level. Raises ValueError if one is outside the levels."""
+    """By threshold, jnd and dprime, that of each level, as far as they are known. Raises ValueError if one is outside
+    the levels."""
     simulation = Simulation(protocol, observer, senses)
     set_equal = protocol.reference if protocol.adjusts else None  # what a setting seeks
     truth = {"threshold": [simulation.threshold() if set_equal is None else set_equal]}
@@ -50,7 +54,7 @@ def coverage(
         truth["dprime"] = [simulation.dprime(i) for i in range(len(protocol.levels))]
     people = [person(protocol, "", simulation.run(i, seed + i)) for i in range(sessions)]
     return {what: _coverage(np.array(known), [_numbers(protocol, one, what) for one in people])
-            for what, known in truth.items()}  # fmt: skip
+            for what, known in truth.items() if np.isfinite(known).any()}  # fmt: skip
 
 
 def _numbers(protocol: Protocol, one: Person, what: str) -> list[Estimate]:

@@ -305,5 +305,6 @@ def test_the_order_is_that_of_the_seed(tmp_path: Path) -> None:
     assert load_protocol(written(tmp_path, COMPARES)).digest == protocol.digest
     assert load_protocol(written(tmp_path, COMPARES.replace("seed = 3", "seed = 4"))).digest != protocol.digest
     assert with_trials(protocol, 240).file.trials.per_level == 40
+    assert with_trials(load_protocol("wall-thickness"), 160).file.trials.catch == 40
     quest = replace(protocol, file=protocol.file.model_copy(update={"method": "quest"}))
     assert len(Course(with_trials(quest, 50), 0)) == 50

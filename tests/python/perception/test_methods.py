@@ -57,10 +57,13 @@ def test_a_staircase_stays_where_three_of_four_answers_are_right(load: Callable[
     assert np.mean(seen[100:]) == pytest.approx(0.75, abs=0.02)
 
 
-def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str], Protocol]) -> None:
+@pytest.mark.parametrize(
+    "text", [RIGHT, YES.replace('"constant"', '"quest"').replace("per_level", "total")], ids=["right", "yes"]
+)
+def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str], Protocol], text: str) -> None:
     """Against a direct sum over both answers, after some of them: the entropy of the place, whatever the rest is."""
-    protocol = load(RIGHT)
-    method, grid = Quest(protocol), Grid(protocol.shape, protocol.levels, QUEST)
+    protocol = load(text)
+    method, grid = Quest(protocol), Grid(replace(protocol.shape, bends=False), protocol.levels, QUEST)
     p, weight = grid.probability(protocol.levels), grid.prior
     places = np.unique(grid.place)
     for counted in (True, True, False, True, False):
