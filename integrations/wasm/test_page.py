@@ -121,7 +121,7 @@ def test_a_scene_is_saved_as_a_file_that_the_package_reads_and_loaded_again(page
         page.set_input_files("input[type=file]", {"name": "a.toml", "mimeType": "", "buffer": (text + ending).encode()})
         if ending:
             expect(scene).to_contain_text("a.toml was not loaded; the run continues unchanged.")
-            expect(scene).to_contain_text("this is not TOML")
+            expect(scene).to_contain_text("This is not TOML")
         else:
             expect(page.locator(".scene-picker")).to_contain_text("Mine")
     ticks_come(page)
