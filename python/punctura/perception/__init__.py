@@ -15,24 +15,7 @@ from punctura.perception.report import write_report
 from punctura.perception.session import DiskFullError, Session, SessionError, delete_participant, read_session, sessions
 
 __all__ = [
-    "Analysis",
-    "Coverage",
-    "DiskFullError",
-    "Estimate",
-    "Observer",
-    "Person",
-    "PowerRow",
-    "Protocol",
-    "Session",
-    "SessionError",
-    "Simulation",
-    "analyse",
-    "coverage",
-    "delete_participant",
-    "load_protocol",
-    "power",
-    "protocol_names",
-    "read_session",
-    "sessions",
-    "write_report",
-]
+    "Analysis", "Coverage", "DiskFullError", "Estimate", "Observer", "Person", "PowerRow", "Protocol", "Session",
+    "SessionError", "Simulation", "analyse", "coverage", "delete_participant", "load_protocol", "power",
+    "protocol_names", "read_session", "sessions", "write_report",
+]  # fmt: skip

@@ -96,6 +96,10 @@ def words(one: Estimate | None) -> str:
     return f"{value} ({bound})" if np.isfinite(one.value) else bound
 
 
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    return [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)] + [""]
+
+
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     file, unit = protocol.file, "" if found.unit == "-" else f", {found.unit}"
     keys = {"threshold": f"threshold{unit}"}
@@ -107,35 +111,33 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         keys |= {"lapse": "lapses"} | ({"first": "first if equal"} if file.task == "two_intervals" else {})
     shares = "right answers" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
+    form, rows = ".3g" if protocol.rates or protocol.adjusts else ".0%", []
+    for one in found.people:
+        cells = [words(getattr(one, key)) for key in keys]
+        if one.reason:
+            cells = [one.reason, *[""] * (len(keys) - 1)]
+        blocks = ", ".join("-" if share is None else format(share, form) for share in one.by_block)
+        rows.append([one.participant, str(one.trials), *cells, blocks])
+    if not found.reason:
+        known = sum(not one.reason for one in found.people)
+        means = [words(getattr(found, key, None)) for key in keys]
+        rows.append([f"**mean of {known} of {len(found.people)} people**", "", *means, ""])
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
         f"{what}. Intervals are {LEVEL:.0%} intervals, for people who seldom lapse. Source of the protocol: "
         f"{file.source or 'not given'}.", "",
-        f"| participant | trials | {' | '.join(keys.values())} | {shares} in each block |",
-        f"|---|---|{'---|' * len(keys)}---|",
+        *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
-    for one in found.people:
-        form = ".3g" if protocol.rates or protocol.adjusts else ".0%"
-        blocks = ", ".join("-" if share is None else format(share, form) for share in one.by_block)
-        cells = [words(getattr(one, key)) for key in keys]
-        if one.reason:
-            cells = [one.reason, *[""] * (len(keys) - 1)]
-        lines.append(f"| {one.participant} | {one.trials} | {' | '.join(cells)} | {blocks} |")
-    if not found.reason:
-        means = " | ".join(words(getattr(found, key, None)) for key in keys)
-        known = sum(not one.reason for one in found.people)
-        lines.append(f"| **mean of {known} of {len(found.people)} people** | | {means} | |")
-    lines.append("")
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
-    detected = [(one.participant, each) for one in found.people for each in one.detection]
+    detected = [
+        [one.participant, f"{each.level:.4g}", str(each.trials), words(each.dprime), words(each.criterion)]
+        for one in found.people
+        for each in one.detection
+    ]
     if detected:
-        lines += [f"## d'\n\n| participant | level{unit} | trials | d' | criterion |", "|---|---|---|---|---|"]
-        for name, each in detected:
-            lines.append(
-                f"| {name} | {each.level:.4g} | {each.trials} | {words(each.dprime)} | {words(each.criterion)} |"
-            )
-        lines.append("")
+        head = ["participant", f"level{unit}", "trials", "d'", "criterion"]
+        lines += ["## d'", "", *_table(head, detected)]
     caught = [one for one in found.people if one.catch_trials]
     if caught:
         what = "yes (false alarms)" if file.task == "yes_no" else "right"
