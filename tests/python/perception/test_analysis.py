@@ -82,6 +82,14 @@ def test_the_posterior_agrees_with_the_largest_likelihood() -> None:
     assert low < 0.1 < high and high - low < 0.06
 
 
+def test_the_prior_moves_no_threshold_of_right_answers() -> None:
+    """Of an observer with constant noise: 60 answers a level, shared out as the function is."""
+    levels = np.geomspace(0.005, 0.64, 8)
+    p = np.repeat(0.01 + 0.98 * ndtr(ndtri(0.75) * levels / 0.06), 60)
+    belief = posterior(Shape(2, one_sided=True), levels, np.repeat(levels, 60), p)
+    assert np.exp(belief.quantiles(belief.grid.place, (0.5,))) == pytest.approx(0.06, rel=0.01)
+
+
 @pytest.mark.statistics
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}, {row[2]}")
 def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row) -> None:
