@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import above_air, baseline, slope
-from punctura.trace.samples import cut_off, gaps, nothing_seen, smoothed, with_depth_between, without_spikes
+from punctura.trace.samples import (
+    gaps,
+    nothing_seen,
+    smoothed,
+    with_depth_between,
+    without_cut_off,
+    without_spikes,
+)
 from punctura.trace.segment import Segments, segment, way_to_tissue
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -60,11 +67,11 @@ def examine(trace: Trace) -> Trace:
         *_units(trace),
         *gaps(trace),
         *smoothed(*segments.air(trace.force)),
-        *cut_off(trace),
         *_drift(trace, segments),
     ]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
-    return replace(trace, findings=(*trace.findings, *found))
+    trace, limit = without_cut_off(trace)
+    return replace(trace, findings=(*trace.findings, *found, *limit))
 
 
 _NO_INSERTION = Finding(

@@ -165,10 +165,11 @@ def smoothed(*air: Array) -> Iterator[Finding]:
         yield Finding("smoothed", f"{text} in: {advice}")
 
 
-def cut_off(trace: Trace) -> Iterator[Finding]:
-    """A force that stands at its greatest or its least value, while it moves elsewhere: the sensor's range ends there.
+def without_cut_off(trace: Trace) -> tuple[Trace, list[Finding]]:
+    """The trace without the samples where the force stands at its greatest or least value, while it moves elsewhere.
 
-    The other values are compared, too: a sensor of coarse steps or a slow one repeats all of its values.
+    The sensor's range ends there. The other values are compared, too: a sensor of coarse steps or a slow one repeats
+    all of its values.
     """
     force = trace.force
     runs = equal_runs(force)
@@ -177,10 +178,14 @@ def cut_off(trace: Trace) -> Iterator[Finding]:
     height = float(np.max(np.abs(force - zero)))
     ends = [end for end in (float(force.max()), float(force.min())) if abs(end - zero) > 0.1 * height]
     usual = int(lengths[~np.isin(values, ends)].max(initial=1))
+    found, kept = [], np.ones(len(force), bool)
     for end in ends:
         longest = int(lengths[values == end].max())
         if longest >= 5 and longest > 3 * usual:
             first = int(starts[(values == end) & (lengths == longest)][0]) + 1
             text = f"the force stands at {end:.4g} N for {longest} samples, from sample {first} on, and goes no further"
-            advice = "what it was there is not known, so the fit is wrong. Take a sensor of a larger range"
-            yield Finding("cut_off", f"{text}: perhaps the sensor or its amplifier is at its limit; {advice}")
+            advice = "what it was there is not known, so these samples are left out. Take a sensor of a larger range"
+            limit = "perhaps the sensor or its amplifier is at its limit"
+            kept &= force != end
+            found.append(Finding("cut_off", f"{text}: {limit}; {advice}", True))
+    return (trace[kept] if kept.sum() >= 5 else trace), found

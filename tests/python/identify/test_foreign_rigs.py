@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from punctura.identify import identify
+from punctura.trace.findings import examine
 from traces import NEEDLE, trace
 
 
@@ -25,3 +26,13 @@ def test_a_trace_that_begins_in_the_tissue_has_the_same_membrane():
     truth = {"membrane[0].surface": 5e-3, "membrane[0].stiffness": 600, "membrane[0].friction": 0.2}
     values = {estimate.name: estimate.value for estimate in found.estimates}
     assert [values[name] for name in truth] == pytest.approx(list(truth.values()), rel=0.1)
+
+
+def test_a_force_beyond_the_range_of_its_sensor_is_left_out_of_the_fit():
+    made = trace(hold=0.4)
+    read = examine(replace(made, force=np.minimum(made.force, 0.7 * made.force.max())))
+    found = identify(read, NEEDLE)
+    assert len(found.parameters.membranes) == 1 and len(read) < len(made) and found.doubts.explained.ok
+    truth = {"surface": 5e-3, "stiffness": 600, "precompression": 0.3, "friction": 0.2, "thickness": 0.5e-3}
+    values = {estimate.name: estimate.value for estimate in found.estimates}
+    assert [values[f"membrane[0].{name}"] for name in truth] == pytest.approx(list(truth.values()), rel=0.05)
