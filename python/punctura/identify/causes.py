@@ -36,11 +36,11 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     None if the trace does not show both ways there, or no air, or if the next wall resists there. No law is used.
     """
     strokes = [stroke for stroke in segments.strokes if stroke.insertion == 0]
-    inward = [stroke for stroke in strokes if stroke.kind == "in"]
-    pops = [pop for pop in segments.pops if inward and pop.start < inward[-1].end]
+    ends = [stroke.end for stroke in strokes if stroke.kind == "in"]  # some in air, where a hand turns
+    end = max(ends, key=lambda i: trace.depth[i - 1], default=0)
+    pops = [pop for pop in segments.pops if pop.start < end]
     if not pops:
         return None
-    end = inward[-1].end
     last = min(strokes[-1].end, len(trace))
     begin = float(trace.depth[pops[-1].end]) + pops[-1].width
     deep = begin + SHALLOW * (float(trace.depth[:end].max()) - begin)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from punctura import Needle, ProfileLaw
 from punctura.identify.parameters import MEMBRANE, Parameters, default_coupling, default_membrane
 from punctura.trace import Segments, Trace, TraceError
+from punctura.trace.segment import way_to_tissue
 
 Array = NDArray[np.float64]
 
@@ -37,7 +38,7 @@ class ProfileFit:
 
 def first_insertion(trace: Trace, segments: Segments) -> Trace:
     """The samples of the first insertion up to its end, without holds and withdrawals. Raises TraceError."""
-    going_in = next((s for s in segments.strokes if s.kind == "in"), None)
+    going_in = way_to_tissue(trace, segments.strokes)
     if going_in is None:
         return trace
     if (few := going_in.end - going_in.start) < FEWEST:

@@ -98,7 +98,7 @@ def walls_of(trace: Trace, segments: Segments, one: bool = False) -> tuple[Wall,
     inward = [stroke for stroke in segments.strokes if stroke.kind == "in" and stroke.insertion == 0]
     if not inward:
         raise TraceError(f"{trace.source}: the needle never goes in: rivals need an insertion")
-    end = inward[-1].end - 1
+    end = max((stroke.end - 1 for stroke in inward), key=lambda i: trace.depth[i])
     contact = segments.contact if segments.contact is not None else inward[0].start
     pops = [pop for pop in segments.pops if pop.start <= end]
     slope = _slope(trace, pops[-1].end if pops else contact, end)

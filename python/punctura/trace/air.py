@@ -76,6 +76,16 @@ def exit_sample(depth: Array, force: Array) -> int | None:
     return out if is_out and len(force) - out >= FEWEST else None
 
 
+def without_turns_in_air(insertions: NDArray[np.int64], depth: Array, force: Array) -> NDArray[np.int64]:
+    """The numbers of the insertions (n,) from 0 on, without those that stay in air, as where a hand turns there."""
+    left = _departure(_without_spikes(force))
+    if left is None or left[0] < FEWEST:
+        return insertions
+    deepest = np.array([depth[insertions == i].max() for i in range(int(insertions[-1]) + 1)])
+    air = min(float(depth[left[0]]), 0.5 * float(depth.min() + depth.max()))
+    return np.asarray(np.maximum(np.cumsum(deepest > air) - 1, 0)[insertions])
+
+
 def leaves_air(force: Array, greatest: float) -> bool:
     """Whether a force (n,), N, leaves the air; greatest: that of the whole trace, N."""
     away = np.abs(above_air(_without_spikes(force)))

@@ -65,7 +65,8 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
         inward = [stroke for stroke in ways if stroke.kind == "in"]
         if not inward:
             continue
-        start, end, last = ways[0].start, inward[-1].end, ways[-1].end
+        end = max((stroke.end for stroke in inward), key=lambda i: trace.depth[i - 1])
+        start, last = ways[0].start, ways[-1].end
         touched = segments.contact if insertion == 0 else _contact(level, start, end)
         pops = [pop for pop in segments.pops if start <= pop.start < end]
         found.append(_numbers(level, insertion, (start, end, last), touched, pops, zero, float(np.cos(angle))))

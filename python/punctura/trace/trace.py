@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from punctura._core import PuncturaError
 from punctura.errors import IncompleteCallError
+from punctura.trace.air import without_turns_in_air
 from punctura.trace.turns import depth_hysteresis, insertion_numbers
 
 Array = NDArray[np.float64]
@@ -97,7 +98,8 @@ class Trace:
     @cached_property
     def strokes(self) -> NDArray[np.int64]:
         """The number of the insertion that each sample belongs to (n,): 0 for the first, with its withdrawal."""
-        return insertion_numbers(self.depth, depth_hysteresis(self.depth))
+        numbers = insertion_numbers(self.depth, depth_hysteresis(self.depth))
+        return without_turns_in_air(numbers, self.depth, self.force) if numbers[-1] else numbers
 
     @property
     def speed(self) -> Array | None:

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from punctura import Membrane
+from punctura.identify.start import first_insertion
 from punctura.trace import Trace, TraceError, segment
 from punctura.trace.air import contact_sample
 from punctura.trace.findings import examine
+from punctura.trace.numbers import numbers_of
 from punctura.trace.samples import rounding
 from punctura.trace.turns import noise_of, turning_points
 from traces import force_of, motion, trace
@@ -96,6 +98,18 @@ def test_a_hand_that_turns_in_air_has_its_contact_behind_the_last_turn():
     depth = 6e-3 - 6e-3 * np.cos(2 * np.pi * time / 12) + 0.2e-3 * np.sin(2 * np.pi * 1.1 * time)
     made = Trace(depth, force_of(depth) + 8e-3 * np.random.default_rng(1).normal(size=len(depth)), time)
     assert made.depth[segment(made).contact] == pytest.approx(5e-3, abs=0.2e-3)
+
+
+def test_turns_of_a_hand_in_air_are_no_insertions():
+    once, noise = trace(hold=0.1), np.random.default_rng(1)
+    turn = 0.5e-3 * np.sin(np.linspace(0, np.pi, 60))
+    depth = np.concatenate((turn, once.depth, turn, once.depth, turn))
+    air = [5e-3 * noise.normal(size=60) for _ in range(3)]
+    made = Trace(depth, np.concatenate((air[0], once.force, air[1], once.force, air[2])), np.arange(len(depth)) / 200)
+    assert set(made.strokes) == {0, 1} and segment(made).insertions == 2
+    assert first_insertion(made, segment(made)).depth.max() == once.depth.max()
+    assert [one.deepest_m for one in numbers_of(made)] == [once.depth.max()] * 2
+    assert [one.peak_N for one in numbers_of(made)] == pytest.approx([once.force.max()] * 2, abs=0.02)
 
 
 def test_every_tenth_sample_gives_the_same_contact():
