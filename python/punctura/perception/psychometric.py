@@ -175,18 +175,21 @@ class Belief(NamedTuple):
     grid: Grid
     weight: Array  # (cells,)
 
+    def marginal(self, values: Array) -> tuple[Array, Array]:
+        """The different ones of `values` (cells,), and the probability of each."""
+        unique, at = np.unique(values, return_inverse=True)
+        return unique, np.bincount(at, self.weight, len(unique)).astype(np.float64)
+
     def quantiles(self, values: Array, shares: Sequence[float]) -> Array:
         """Of a quantity that has `values` (cells,)."""
-        unique, at = np.unique(values, return_inverse=True)
-        mass = np.bincount(at, self.weight, len(unique))
+        unique, mass = self.marginal(values)
         below = np.cumsum(mass) - mass / 2  # half of a cell lies below its middle
         found: Array = np.interp(shares, below, unique)
         return found
 
     def density(self, values: Array, at: float) -> float:
         """Of the probability of the values at one of them, as a share of the largest; 0 outside the grid."""
-        unique, each = np.unique(values, return_inverse=True)
-        mass = np.bincount(each, self.weight, len(unique))
+        unique, mass = self.marginal(values)
         return float(mass[np.isclose(unique, at)].sum() / mass.max())
 
     def mean(self, values: Array) -> float:
@@ -219,6 +222,6 @@ def posterior(
 
 def _around(belief: Belief, values: Array) -> Array:
     """The bounds of the values that have any weight, and one value more on either side."""
-    unique, at = np.unique(values, return_inverse=True)
-    heavy = np.flatnonzero(np.bincount(at, belief.weight, len(unique)) > 1e-3)
+    unique, mass = belief.marginal(values)
+    heavy = np.flatnonzero(mass > 1e-3)
     return unique[[max(heavy[0] - 1, 0), min(heavy[-1] + 1, len(unique) - 1)]]
