@@ -80,6 +80,7 @@ def opened(
         context.add_init_script(script)
     page = context.new_page()
     page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text) if line.text.startswith("THREE.WebGLProgram") else None)
     try:
         page.goto(url)
         yield page
