@@ -2,7 +2,7 @@
 
     python tools/view_rate.py [--scene epidural] [--seconds 30] [--size 1440x900] [--warm 22] [--page FOLDER]
 
-The simulated hand goes in and out through all membranes without a rest: at rest the view draws only what fades, 15
+The simulated hand goes in and out through all membranes without a rest: at rest the view draws only what fades, 4
 times a second. Prints the pictures per second of the view, of a plot and of the browser (medians of 2 s), the sharpness
 that the view chose, and the processor time per picture of Chromium's processes. Nothing else should run on the
 computer, except for the processor times, which hardly depend on it.

@@ -1,6 +1,6 @@
 /** How long the trail shows a place of the tip. */
 export const TRAIL_SECONDS = 2.5;
-const FADES_PER_SECOND = 15;
+const FADES_PER_SECOND = 4; // in full sharpness
 
 /** Says when the trail needs a new picture while the needle stands still, because the trail goes on fading. */
 export class Fade {

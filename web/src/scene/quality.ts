@@ -5,8 +5,9 @@ const LONGEST_MS = 100; // a longer picture counts as this: one stop of the page
 const QUICK_PICTURES = 120;
 const MOST_PATIENCE = 8 * QUICK_PICTURES;
 const STEP = 0.8;
-const LOWEST = 0.6; // device pixels per CSS pixel, along each side
+const LOWEST = 0.8; // device pixels per CSS pixel, along each side
 const IDLE_MS = 400;
+const REST_MS = 180; // after the last motion the picture is sharp
 
 /**
  * Sharpness of a moving picture. If fewer than 30 pictures a second come on average, they get fewer pixels, because
@@ -26,6 +27,8 @@ export class Quality {
   private begun = Number.NaN;
   /** Whether the browser has painted since then. */
   private painted = false;
+  /** When something moved, ms. */
+  private moved = Number.NEGATIVE_INFINITY;
 
   /** best: device pixels per CSS pixel of the sharpest picture. */
   constructor(readonly best: number) {
@@ -37,8 +40,15 @@ export class Quality {
     return this.ratio < this.best;
   }
 
+  /** Whether a picture at the time `now`, ms, is one at rest. A trail that fades is no motion. */
+  rests(now: number, moves: boolean): boolean {
+    if (moves) this.moved = now;
+    return now - this.moved >= REST_MS;
+  }
+
   /**
-   * The browser asks for a picture at the time `now`, ms. draws: whether a new one is drawn. painted: whether the
+   * The browser asks for a picture at the time `now`, ms. draws: whether a new one is drawn
+   * that moves. painted: whether the
    * browser paints next. Returns whether the sharpness changes.
    */
   step(now: number, draws: boolean, painted: boolean): boolean {

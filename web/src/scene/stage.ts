@@ -4,7 +4,6 @@ import { Quality } from "./quality.ts";
 import type { Theme } from "./theme.ts";
 
 const HIGHEST_RATIO = 2; // device pixels per CSS pixel, along each side
-const REST_MS = 250;
 
 /** The canvas, its lights and its size. It recovers after a loss of the WebGL context. */
 export class Stage {
@@ -18,7 +17,6 @@ export class Stage {
   /** Pixel ratio of a still picture. */
   private readonly resting: number;
   private ratio: number;
-  private drawn = 0;
   /** Whether the whole picture must be drawn again. */
   stale = true;
   lost = false;
@@ -42,10 +40,8 @@ export class Stage {
       alpha: true,
       powerPreference: "high-performance",
     });
-    // In software, a still picture is sharper than the screen, which smooths its edges.
-    this.resting = software
-      ? Math.max(1.75 * Math.min(1, devicePixelRatio || 1), this.quality.best)
-      : this.quality.best;
+    // In software, a still picture has four pixels for one of the screen, whose mean smooths its edges.
+    this.resting = software ? 2 * Math.min(1, devicePixelRatio || 1) : this.quality.best;
     this.renderer.setClearAlpha(0);
     this.key.position.set(0.6, 1, 0.9);
     this.scene.add(this.key, this.sky);
@@ -78,11 +74,11 @@ export class Stage {
     this.stale = true;
   }
 
-  /** now: ms. painted: whether the browser paints next. */
-  draw(camera: Camera, now: number, painted: boolean): void {
-    this.drawn = now;
-    if (this.quality.step(now, true, painted)) this.coarser(this.quality.words());
-    this.setRatio(this.quality.ratio);
+  /** now: ms. painted: whether the browser paints next. moves: or only fades, which is drawn at full sharpness. */
+  draw(camera: Camera, now: number, painted: boolean, moves: boolean): void {
+    const rests = this.quality.rests(now, moves);
+    if (this.quality.step(now, !rests, painted)) this.coarser(this.quality.words());
+    this.setRatio(rests ? this.resting : this.quality.ratio);
     this.renderer.render(this.scene, camera);
     this.stale = false;
   }
@@ -90,7 +86,7 @@ export class Stage {
   /** Called in frames without a change: after a while the picture is drawn once more, at full sharpness. */
   rest(camera: Camera, now: number, painted: boolean): void {
     if (this.quality.step(now, false, painted)) this.coarser(this.quality.words());
-    if (this.ratio >= this.resting || now - this.drawn < REST_MS) return;
+    if (this.ratio >= this.resting || !this.quality.rests(now, false)) return;
     this.setRatio(this.resting);
     this.renderer.render(this.scene, camera);
   }

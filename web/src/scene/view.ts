@@ -172,7 +172,7 @@ export const view: Panel = (host, app) => {
       return;
     }
     showHub(world.hiddenHub(orbit.camera, covered / Math.max(1, stage.height)));
-    stage.draw(orbit.camera, now, painted);
+    stage.draw(orbit.camera, now, painted, turned || framed || stage.stale || !world.still);
     world.name(orbit.camera);
     drawScale(pixel);
     speak(world.moment, scene, now);

@@ -53,6 +53,8 @@ export class World {
   private goal: Goal | null = null;
   private readonly drawn = new Shown();
   private readonly fade = new Fade();
+  /** Whether the last change was one of the trail alone, which goes on fading. */
+  still = false;
   /** On which sides the tissue goes on to the border of the page; if at all, names and force are not in the view. */
   wide: "no" | "left" | "both" = "no";
 
@@ -255,10 +257,11 @@ export class World {
     return middle.addScaledVector(along.normalize(), this.membranes.size);
   }
 
-  /** Whether the picture changed. The trail goes on fading for a while after the needle has stopped. */
+  /** Whether the picture changed. */
   private differs(values: readonly number[], changed: boolean): boolean {
     const differs = this.drawn.differs(values) || changed;
     const faded = this.fade.step(this.moment.time, differs);
+    this.still = !differs;
     return differs || faded;
   }
 

@@ -17,7 +17,8 @@ const fading = (quality: Quality, count: number, took: number): void => {
   const fade = new Fade();
   for (let i = 0; i < count; i++) {
     clock += took;
-    quality.step(clock, fade.step(clock / 1e3, i === 0), true);
+    const fades = fade.step(clock / 1e3, i === 0);
+    quality.step(clock, fades && !quality.rests(clock, i === 0), true);
   }
 };
 
@@ -28,7 +29,7 @@ it("late pictures get fewer pixels step by step, and the view says so", () => {
   expect(quality.ratio).toBeCloseTo(0.8);
   expect(quality.words()).toBe("Coarser while moving: 80 %");
   pictures(quality, 500, 60);
-  expect(quality.ratio).toBe(0.6);
+  expect(quality.ratio).toBe(0.8);
 });
 
 it("pictures that come in time stay sharp, and so do single late ones and an idle view", () => {
@@ -81,8 +82,14 @@ it("a trail that fades asks for few pictures, and these are not late", () => {
   const quality = new Quality(2);
   for (const took of [7, 17, 33]) for (let i = 0; i < 50; i++) fading(quality, 2500 / took, took);
   expect(quality.words()).toBe("");
-  fading(quality, 30, 80);
-  expect(quality.lowered).toBe(true); // here the frames themselves come late
+});
+
+it("a picture is sharp 0.2 s after the last motion, while the trail still fades", () => {
+  const quality = new Quality(1);
+  expect(quality.rests(1000, true)).toBe(false);
+  expect(quality.rests(1150, false)).toBe(false);
+  expect(quality.rests(1200, false)).toBe(true);
+  expect(quality.rests(1210, true)).toBe(false);
 });
 
 it("a picture between two frames takes until the frame after that which shows it", () => {
