@@ -1,10 +1,12 @@
 import {
+  BackSide,
   BoxGeometry,
   CylinderGeometry,
   DoubleSide,
   Group,
   LatheGeometry,
   Mesh,
+  MeshBasicMaterial,
   MeshLambertMaterial,
   Vector2,
 } from "three";
@@ -45,8 +47,11 @@ export class Hub {
     depthWrite: false,
     side: DoubleSide,
   });
+  /** On a dark page, a light wall behind the clear plastic: else the page would show through it, and hide it. */
+  private readonly behind = new MeshBasicMaterial({ color: 0xc4c9d1, side: BackSide });
   private readonly blood = new MeshLambertMaterial();
   private readonly body = new Mesh(new LatheGeometry(), this.plastic);
+  private readonly back = new Mesh(this.body.geometry, this.behind);
   private readonly wings = new Mesh(new BoxGeometry(17, 5, 0.9), this.plastic);
   private readonly fill = new Mesh(
     new CylinderGeometry(CHAMBER.radius, CHAMBER.radius, 1, 32).translate(0, 0.5, 0),
@@ -58,8 +63,9 @@ export class Hub {
     this.body.renderOrder = 3;
     this.wings.renderOrder = 3;
     this.wings.position.y = HUB_MM - 3.5;
+    this.wings.add(new Mesh(this.wings.geometry, this.behind));
     this.fill.position.y = CHAMBER.bottom;
-    this.group.add(this.body, this.wings, this.fill);
+    this.group.add(this.back, this.body, this.wings, this.fill);
     this.group.rotation.x = Math.PI / 2; // built along y, placed along the shaft's z
     this.show(0);
     theme.watch(() => this.paint());
@@ -71,6 +77,7 @@ export class Hub {
       hubOutline(diameter).map(([r, z]) => new Vector2(r, z)),
       40,
     );
+    this.back.geometry = this.body.geometry;
     this.wings.visible = look === "tuohy";
     this.shade = gaugeOf(diameter)?.shade ?? null;
     this.paint();
@@ -86,6 +93,7 @@ export class Hub {
     const { theme } = this;
     if (this.shade !== null) this.plastic.color.setHex(this.shade);
     else this.plastic.color.copy(theme.color("quiet")).lerp(theme.color("panel"), theme.dark ? 0.1 : 0.35);
+    this.behind.visible = theme.dark;
     this.blood.color.copy(theme.color("blood"));
   }
 }

@@ -52,10 +52,13 @@ export class Syringe {
   constructor(theme: Theme) {
     this.fluid.renderOrder = 2;
     theme.watch(() => {
-      this.glass.color.copy(theme.color("quiet")).lerp(theme.color("panel"), 0.5);
+      // On a dark page, glass and rod are light and the rubber is dark, as on a light one.
+      const [light, dark] = theme.dark ? ["text", "page"] : ["panel", "text"];
+      this.glass.color.copy(theme.color("quiet")).lerp(theme.color(light!), 0.5);
+      this.glass.opacity = theme.dark ? 0.3 : 0.22;
       this.saline.color.copy(theme.color("accent"));
-      this.solid.color.copy(theme.color("panel")).lerp(theme.color("quiet"), 0.25);
-      this.rubber.color.copy(theme.color("text")).lerp(theme.color("quiet"), 0.5);
+      this.solid.color.copy(theme.color(light!)).lerp(theme.color("quiet"), theme.dark ? 0.5 : 0.25);
+      this.rubber.color.copy(theme.color(dark!)).lerp(theme.color("quiet"), theme.dark ? 0.3 : 0.5);
     });
   }
 
