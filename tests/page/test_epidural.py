@@ -28,11 +28,15 @@ def shown(browser: Browser, epidural: StudioProcess) -> Iterator[Page]:
 APART = """() => {
   const [thumb, curve] = [".thumb-button", ".stage-curve"].map((at) => document.querySelector(at));
   const [a, b] = [thumb.getBoundingClientRect(), curve.getBoundingClientRect()];
-  return a.width > 0 && b.width > 0 && (a.top >= b.bottom || a.bottom <= b.top);
+  const row = document.querySelector(".stage-buttons button").getBoundingClientRect();
+  return a.width >= 44 && a.height >= 44 && a.right <= innerWidth && a.top === row.top
+    && b.width > 0 && (a.top >= b.bottom || a.bottom <= b.top);
 }"""
 
 
-def test_on_the_stage_of_a_phone_the_button_for_the_thumb_covers_no_curve(shown: Page) -> None:
+def test_on_the_stage_of_a_phone_the_button_for_the_thumb_is_beside_the_others_and_covers_no_curve(
+    shown: Page,
+) -> None:
     shown.keyboard.press("Alt+b")
     shown.set_viewport_size({"width": 390, "height": 844})
     shown.wait_for_function(APART)
