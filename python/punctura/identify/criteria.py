@@ -137,5 +137,7 @@ class Rule:
                 kept = fit(part, found.free.names, found.parameters)
             except TraceError:
                 return None
+            finally:
+                whole.evaluations += part.evaluations
             squares.append((part.forces(kept.parameters) - found.misfit.trace.force)[out] ** 2)
         return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else None

@@ -81,6 +81,8 @@ def with_contacts_moved(found: Fit) -> Fit:
         if not name.endswith(".surface") or k in popped or precompression not in free.names:
             continue
         here = min(ends, key=lambda end: end.sse).parameters
+        if here.get(name) < found.misfit.trace.depth.min():
+            continue  # the contact is not seen
         for share in SHARES:
             start = here.with_values({precompression: share * float(found.misfit.trace.force.max())})
             try:
