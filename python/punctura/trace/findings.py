@@ -15,6 +15,7 @@ from punctura.trace.samples import (
     smoothed,
     with_depth_between,
     without_cut_off,
+    without_floor,
     without_spikes,
 )
 from punctura.trace.segment import Segments, segment, way_to_tissue
@@ -70,8 +71,9 @@ def examine(trace: Trace) -> Trace:
         *_drift(trace, segments),
     ]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
+    trace, floor = without_floor(trace, segments)
     trace, limit = without_cut_off(trace)
-    return replace(trace, findings=(*trace.findings, *found, *limit))
+    return replace(trace, findings=(*trace.findings, *found, *floor, *limit))
 
 
 _NO_INSERTION = Finding(

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
+from punctura.trace.segment import Segments
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -163,6 +164,25 @@ def smoothed(*air: Array) -> Iterator[Finding]:
         text = f"the noise in air is alike in some {width} neighbouring samples, as if the force was smoothed or filled"
         advice = "pops are then smeared as well, and look like other walls. Export it as it is measured"
         yield Finding("smoothed", f"{text} in: {advice}")
+
+
+def without_floor(trace: Trace, segments: Segments) -> tuple[Trace, list[Finding]]:
+    """The trace without the ways out on which the force stands at its zero, as where a sensor measures no pull."""
+    force, zero = trace.force, baseline(trace.force)
+    if zero - force.min() > 0.1 * float(np.max(np.abs(force - zero))):
+        return trace, []
+    surface = trace.depth.min() if segments.contact is None else trace.depth[segments.contact]
+    floor, left_out = (force == force.min()) & (trace.depth > surface), np.zeros(len(force), bool)
+    for stroke in segments.strokes:
+        begin = stroke.start + int(np.argmax(floor[stroke.start : stroke.end]))
+        end = begin + int((trace.depth[begin : stroke.end] > surface).sum())
+        if stroke.kind == "out" and floor[begin:end].sum() > max(SHORTEST, 0.5 * (end - begin)):
+            left_out[begin:end] = True
+    if not left_out.any():
+        return trace, []
+    text = f"the force stands at {force.min():.3g} N for {int(left_out.sum())} samples while the needle goes out"
+    advice = "perhaps the sensor measures no pull; they are left out. Take a sensor that does"
+    return trace[~left_out], [Finding("no_pull", f"{text}: {advice}", True)]
 
 
 def without_cut_off(trace: Trace) -> tuple[Trace, list[Finding]]:

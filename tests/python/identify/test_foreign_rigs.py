@@ -28,9 +28,12 @@ def test_a_trace_that_begins_in_the_tissue_has_the_same_membrane():
     assert [values[name] for name in truth] == pytest.approx(list(truth.values()), rel=0.1)
 
 
-def test_a_force_beyond_the_range_of_its_sensor_is_left_out_of_the_fit():
+@pytest.mark.parametrize(
+    "measured", [lambda force: np.minimum(force, 0.7 * force.max()), lambda force: np.maximum(force, 0)]
+)
+def test_a_force_beyond_the_range_of_its_sensor_is_left_out_of_the_fit(measured):
     made = trace(hold=0.4)
-    read = examine(replace(made, force=np.minimum(made.force, 0.7 * made.force.max())))
+    read = examine(replace(made, force=measured(made.force)))
     found = identify(read, NEEDLE)
     assert len(found.parameters.membranes) == 1 and len(read) < len(made) and found.doubts.explained.ok
     truth = {"surface": 5e-3, "stiffness": 600, "precompression": 0.3, "friction": 0.2, "thickness": 0.5e-3}

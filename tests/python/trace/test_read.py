@@ -137,6 +137,7 @@ CHANGES = {
     "time_doubtful": lambda made: {"time_s": made.time * 1e3},
     "spikes": lambda made: {"force_N": made.force + 20.0 * (np.arange(len(made)) % 90 == 40)},
     "smoothed": lambda made: {"force_N": np.convolve(np.pad(made.force, 7, "edge"), np.ones(15) / 15, "valid")},
+    "no_pull": lambda made: {"force_N": np.maximum(made.force, 0)},
     "cut_off": lambda made: {"force_N": np.minimum(made.force, 0.7 * made.force.max())},
     "depth_held": lambda made: {"depth_mm": np.repeat(made.depth[::20], 20)[: len(made)] * 1e3},
 }
