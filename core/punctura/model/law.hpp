@@ -11,8 +11,9 @@ namespace punctura {
 
 /// A friction law. Its pieces() are the quadratic pieces of its band, a PiecewiseBand.
 ///
-/// The lower edge is <= the upper edge at every depth. Both edges are 0 in front of the first break and constant
-/// behind the last break. The first break is at the surface (depth 0) or deeper.
+/// The lower edge is <= the upper edge and <= 0 at every depth: a positive one would pull the needle in. Both edges are
+/// 0 in front of the first break and constant behind the last break. The first break is at the surface (depth 0) or
+/// deeper.
 template <typename L>
 concept Law = requires(const L law, typename L::Scalar q) {
   typename L::Scalar;
@@ -27,8 +28,9 @@ concept ObliqueLaw = Law<L> && requires(const L law, typename L::Scalar cos_beta
 
 /// A law whose memory also changes with time, for example a hole that closes.
 ///
-/// advance(memory, depth, dt) is called in each step, also while the needle is outside. depth: m, along the needle. It
-/// is 0 or less while the tip is not in the wall. dt: time since the step before, s.
+/// advance(memory, depth, dt) is called in each step, also while the needle is outside. depth: m, along the needle; 0
+/// or less while the tip is not in the wall, or is barred. dt: time since the step before, s; 0 when a loop takes
+/// another scene.
 template <typename L>
 concept FeelsTime = requires(const L law, typename L::Memory& memory, typename L::Scalar depth, typename L::Scalar dt) {
   { law.advance(memory, depth, dt) } noexcept -> std::same_as<bool>;

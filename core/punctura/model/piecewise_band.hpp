@@ -10,7 +10,7 @@ namespace punctura {
 
 /// The band of friction forces at one depth: [Phi_I, Phi_O], N. K06 (12), (16).
 ///
-/// The needle can rest at any force in the band. A positive force pushes the needle out.
+/// The needle can rest at any force in the band. A negative force pushes the needle out.
 template <typename Scalar>
 struct Band {
   Scalar lower;  ///< Phi_I, N: kinetic friction while the needle moves in

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "punctura/scene/check.hpp"
-#include "punctura/scene/check_law.hpp"
 #include "punctura/scene/model.hpp"
 #include "punctura/servo/force_scale.hpp"
 #include "punctura/servo/servo_step.hpp"
@@ -49,6 +48,21 @@ auto if_good(const std::vector<Problem>& found, std::vector<Problem>& problems, 
   problems.insert(problems.end(), found.begin(), found.end());
   return found.empty() ? std::make_optional(make()) : std::nullopt;
 }
+
+/// Adds a problem for each law of a model that has a flaw, and for a coupling that pulls. The model is then empty.
+template <typename Model>
+void check_model(std::optional<Model>& model, std::vector<Problem>& problems) {
+  if constexpr (requires { model->proxies()[0].params().law.pieces(1); }) {
+    const std::size_t before = problems.size();
+    for (std::size_t i = 0; model && i < model->size(); ++i) {
+      const auto& proxy = model->proxies()[i].params();
+      check_law(proxy.law.pieces(1), "membrane[" + std::to_string(i) + "]", problems);
+      if (const auto g = static_cast<double>(proxy.coupling.g); i == 0 && !(g > 0 && std::isfinite(g)))
+        problems.push_back({"coupling.g", g, "must be a number greater than 0 N/m: a weaker spring pulls the needle"});
+    }
+    if (problems.size() > before) model.reset();
+  }
+}
 }  // namespace detail
 
 /// A function that returns the law of membrane i: `law_of(needle, membrane, i)`.
@@ -68,13 +82,7 @@ auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, Law
                      "with laws of your own, build an InsertionOf with a RelaxingCoupling yourself"});
   auto made = detail::if_good(
       found, problems, [&] { return detail::insertion_of<Scalar>(scene, detail::coupling_of<Scalar>(scene), law_of); });
-  bool flawed = false;
-  for (std::size_t i = 0; made && i < made->size(); ++i) {
-    const std::string flaw = flaw_of(made->proxies()[i].params().law.pieces(1));
-    flawed = flawed || !flaw.empty();
-    if (!flaw.empty()) problems.push_back({"membrane[" + std::to_string(i) + "]", nothing, "the law: " + flaw});
-  }
-  if (flawed) made.reset();
+  detail::check_model(made, problems);
   return made;
 }
 /// Builds the model of a scene with the laws of its membranes.

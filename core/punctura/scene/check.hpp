@@ -10,6 +10,7 @@
 #include "punctura/model/validity.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
+#include "punctura/scene/check_law.hpp"
 #include "punctura/scene/fields.hpp"
 #include "punctura/scene/lumen.hpp"
 #include "punctura/scene/name.hpp"
@@ -127,8 +128,14 @@ inline std::vector<Problem> check(const Scene& scene) {
     const bool enters = field_of(needle_fields, &Needle::tip_angle).range.holds(scene.needle.tip_angle) &&
                         field_of(membrane_fields, &Membrane::friction).range.holds(placed.membrane.friction) &&
                         check_insertion(scene.needle, placed.membrane, path, problems);
-    if (needle && membrane && tissue && enters)
-      check_curve(scene.needle, placed.membrane, placed.tissue, path, problems);
+    if (needle && membrane && tissue && enters &&
+        check_curve(scene.needle, placed.membrane, placed.tissue, path, problems)) {
+      constexpr auto widest = grazing_cosine<double>;  // at this angle a band is the largest
+      if (is_k06(placed.tissue))
+        check_law(ThickLaw(scene.needle, placed.membrane).pieces(widest), path, problems);
+      else
+        check_law(TissueLaw(scene.needle, placed.membrane, placed.tissue).pieces(widest), path, problems);
+    }
     check_fields(outflow_fields, placed.outflow, path, problems);
     check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
     check_place(placed, path, problems);

@@ -1,10 +1,12 @@
-// Whether a law of the user's own fulfils what Law asks of its pieces, for an untouched membrane, along the normal.
+// Whether the pieces of a law, a scene's or the user's own, fulfil what Law asks of them, in an untouched membrane.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "punctura/model/law.hpp"
 #include "punctura/model/validity.hpp"
@@ -23,7 +25,7 @@ std::string flaw_of(const Pieces& pieces) {
   if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0)
     return "its band must be 0 in front of the first break";
   if (!level(back.lower) || !level(back.upper)) return "its edges must be constant behind the last break";
-  double from = 0;
+  double from = 0, largest = 0;  // m, N
   for (std::size_t i = first + 1; i <= pieces.last() && std::isfinite(from); ++i) {
     const auto start = static_cast<double>(pieces.end(i - 1));
     if (!(start >= from))
@@ -37,13 +39,25 @@ std::string flaw_of(const Pieces& pieces) {
     for (const double depth : {from, to, turn > from && turn < to ? turn : from}) {
       if (!std::isfinite(depth)) continue;
       const auto [lower, upper] = piece.band(static_cast<typename Pieces::Scalar>(depth));
-      const auto rounding = 1e-6 * (std::abs(lower) + std::abs(upper));
+      largest = std::max({largest, std::abs(static_cast<double>(lower)), std::abs(static_cast<double>(upper))});
+      const auto rounding =
+          1e-6 * (std::abs(lower) + std::abs(upper)) + 1e-9 * largest;  // an average rounds to its parts
       if (!std::isfinite(rounding) || lower > upper + rounding)
         return "its band at the depth " + decimal_text(depth) + " m is from " + decimal_text(lower) + " N to " +
                decimal_text(upper) + " N; the lower edge must not be above the upper one, and both must be finite";
+      if (lower > rounding)
+        return "its lower edge at the depth " + decimal_text(depth) + " m is " + decimal_text(lower) +
+               " N; it must be 0 N or less: above, it pulls the needle in";
     }
   }
   return {};
+}
+
+/// Adds a problem if the pieces of a law have a flaw. path: of the membrane.
+template <typename Pieces>
+void check_law(const Pieces& pieces, const std::string& path, std::vector<Problem>& problems) {
+  if (const std::string flaw = flaw_of(pieces); !flaw.empty())
+    problems.push_back({path, not_given, "the law: " + flaw});
 }
 
 }  // namespace punctura

@@ -34,6 +34,20 @@ TEST_CASE("an invalid scene is refused with all of its problems") {
   }
 }
 
+TEST_CASE("numbers whose forces no double can hold are refused, K06's and those of measured tissue") {
+  for (const double set : {0.0, 0.5}) {
+    auto scene = paper_scene();
+    scene.membranes[0].tissue.set = set;
+    scene.membranes[0].membrane.stiffness = 1e300;
+    CHECK(check(scene).empty());
+    scene.needle.diameter = 1e9;
+    REQUIRE(check(scene).size() == 1);
+    const std::string line = line_of(check(scene)[0]);
+    CHECK(line.starts_with("membrane[0]: the law: its band at the depth "));
+    CHECK(line.ends_with("both must be finite"));
+  }
+}
+
 TEST_CASE("K06 (7) is checked for each membrane, and the path contains the number of the membrane") {
   auto scene = paper_scene();
   scene.membranes.push_back(scene.membranes[0]);

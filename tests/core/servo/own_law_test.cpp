@@ -212,6 +212,7 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
   faulty({{0, 1e-3}, {{{}, {0, {1}, {-1}}, level}}}, "at the depth 0 m is from 1 N to -1 N");
   faulty({{0, 1e-3}, {{{}, {0, {-1, 4000}, {1}}, level}}}, "at the depth 0.001 m is from 3 N to 1 N");
   faulty({{0, 2e-3}, {{{}, {0, {-1, 4000, -2e6}, {0}}, level}}}, "at the depth 0.001 m is from 1 N to 0 N");
+  faulty({{0, 1e-3}, {{{}, {0, {1}, {2}}, level}}}, "at the depth 0 m is 1 N; it must be 0 N or less");  // pulls in
   faulty({{0, 1e-3}, {{{}, good, {0, {nan}, {1}}}}}, "both must be finite");
   faulty({{0, 1e-3}, {{{}, {0, {-1}, {1, nan}}, level}}}, "both must be finite");
 }
