@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "punctura/servo/servo_step.hpp"
@@ -18,6 +19,8 @@ class AnyStep {
 
   template <typename Insertion>
   static std::unique_ptr<AnyStep> of(ServoStepOf<Insertion> step) {
+    static_assert(std::is_same_v<typename ServoStepOf<Insertion>::Guard, Guard>,
+                  "a loop needs a model whose Scalar is double and whose StoredIn is HeapStorage");
     return std::unique_ptr<AnyStep>(new Holder<Insertion>(std::move(step)));
   }
   virtual ~AnyStep() = default;

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -23,6 +25,27 @@
 #include "punctura/state/archive.hpp"
 
 namespace punctura {
+
+/// The model of a tick, behind the guard: an InsertionOf, or a class of your own.
+///
+/// step(position, axis) returns the force on the device, N. position: m. axis: the needle's unit direction, read only
+/// if uses_axis(). tick(i), cos_beta(i): of the last tick at membrane i, of size() membranes. outside(): the tip is in
+/// front of all of them. resume(previous) takes over another model of this type during a run.
+///
+/// All of it is noexcept: an exception in a tick would end the program, and the device would hold its last force.
+template <typename M>
+concept Model = requires(M model, const M& now, const Vector3<typename M::Scalar>& vector, std::size_t i) {
+  typename M::StoredIn;  // HeapStorage, or FixedStorage
+  { model.reset() } noexcept;
+  { model.resume(model) } noexcept;
+  { model.step(vector, vector) } noexcept -> std::convertible_to<Vector3<typename M::Scalar>>;
+  { now.tip() } noexcept -> std::convertible_to<Vector3<typename M::Scalar>>;
+  { now.uses_axis() } noexcept -> std::same_as<bool>;
+  { now.outside() } noexcept -> std::same_as<bool>;
+  { now.size() } noexcept -> std::same_as<std::size_t>;
+  { now.tick(i) } noexcept -> std::convertible_to<SpaceTick<typename M::Scalar>>;
+  { now.cos_beta(i) } noexcept -> std::same_as<typename M::Scalar>;
+};
 
 /// Everything of a servo step but its model: input gate, force scale, force limits, fault, fade, syringe and record.
 ///
@@ -66,8 +89,9 @@ class ServoGuard {
   void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
   /// Takes over the run of another step of the same period, but not its model: limits, budget, state, fault and number
-  /// of the tick go on, and the force is faded. A syringe goes on if it has the same contents, barrel and coupling;
-  /// another one starts full, where the thumb is.
+  /// of the tick go on, and the force is faded. The model begins afresh: it gives no force until the tip has been in
+  /// front of every membrane. A syringe goes on if it has the same contents, barrel and coupling; another one starts
+  /// full, where the thumb is.
   void resume(const ServoGuard& previous) noexcept {
     if (syringe_ && previous.syringe_ && syringe_->plunger.same_syringe(previous.syringe_->plunger))
       syringe_->plunger.state = previous.syringe_->plunger.state;
@@ -81,8 +105,8 @@ class ServoGuard {
     commands_ = previous.commands_ | command_scene;
     faded_force_ = previous.faded_force_;
     thumb_force_ = previous.thumb_force_;
-    fade_ = 1;
-    fade_starts_ = true;
+    start_fade();
+    barred_ = true;
   }
 
   /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
@@ -110,6 +134,7 @@ class ServoGuard {
   void reset() noexcept {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
+    barred_ = false;
     if (syringe_) syringe_->plunger.reset();
     gate_.state = {};
     fault_ = Fault::none;
@@ -129,10 +154,12 @@ class ServoGuard {
           (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), model))))
         fault_ = Fault::non_finite_force;
     }
-    if (fault_ != Fault::none) {
-      state_ = ServoState::faulted;
-      model_force.setZero();
+    if (fault_ != Fault::none) state_ = ServoState::faulted;
+    if (barred_ && model.outside()) {
+      barred_ = false;
+      start_fade();
     }
+    if (fault_ != Fault::none || barred_) model_force.setZero();
     if (state_ == ServoState::active && !gate_.held(sample)) state_ = ServoState::waiting;
     if (state_ == ServoState::waiting && model.outside() && gate_.held(sample)) {
       state_ = ServoState::active;
@@ -169,7 +196,7 @@ class ServoGuard {
     state.fields(self.tick_, self.commands_);
     archive_or_nan(self.time_, state);
     state.fields(self.fade_, self.faded_force_, self.fade_offset_, self.thumb_force_, self.thumb_offset_,
-                 self.fade_starts_);
+                 self.fade_starts_, self.barred_);
     state.require(self.fade_ >= 0 && self.fade_ <= 1);
   }
   void describe(auto& parameters) const {
@@ -180,12 +207,14 @@ class ServoGuard {
     parameters.fields(force_scale_, fade_step_);
   }
 
+  bool barred_ = false;  ///< the model is another than before, and the tip has not been in front of it yet
+
  private:
   /// Whether each band is finite. Where a law of the user's own gives NaN, a proxy holds the needle with its coupling,
-  /// and the force stays finite. check() has seen the numbers of a scene's own laws.
+  /// and the force stays finite. check() has seen the bands of a scene's own laws, in double.
   template <typename Insertion>
   bool bands_are_finite([[maybe_unused]] const Insertion& model) const noexcept {
-    if constexpr (std::is_same_v<Insertion, BasicInsertion<Scalar>>) return true;
+    if constexpr (std::is_same_v<Insertion, BasicInsertion<double>>) return true;
     Scalar sum = 0;  // NaN if a band is not finite
     for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
       const auto& band = model.tick(i).band;
@@ -201,7 +230,11 @@ class ServoGuard {
     return wanted + fade_ * thumb_offset_;
   }
 
-  /// Fades from the force before resume() to the wanted force.
+  void start_fade() noexcept {
+    fade_ = 1;
+    fade_starts_ = true;
+  }
+  /// Fades from the force before start_fade() to the wanted force.
   Vector faded(const Vector& wanted) noexcept {
     if (fade_starts_) fade_offset_ = faded_force_ - wanted;
     fade_starts_ = false;
@@ -256,9 +289,9 @@ class ServoGuard {
 
 /// The servo step: input gate, model, force scale, force limits and the record of a tick.
 ///
-/// Insertion: the BasicInsertion of a scene, an InsertionOf with your own laws and coupling, or any class that has what
-/// InsertionOf has. A tick is computed in its Scalar.
-template <typename Insertion>
+/// Insertion: the BasicInsertion of a scene, an InsertionOf with your own laws and coupling, or any other Model. A tick
+/// is computed in its Scalar.
+template <Model Insertion>
 class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Insertion::StoredIn> {
  public:
   using Guard = ServoGuard<typename Insertion::Scalar, typename Insertion::StoredIn>;
@@ -280,11 +313,11 @@ class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Inser
   /// Takes over the run of another step of the same period. Use it to change the scene while somebody holds the device.
   ///
   /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
-  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards. After
-  /// ServoGuard::resume() alone the model begins afresh: no membrane gives force until the tip has been in front of it.
+  /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
   void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     Guard::resume(previous);
+    this->barred_ = previous.barred_;
   }
 
   /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.

@@ -139,7 +139,7 @@ void archive_or_nan(auto& value, auto& state) {
 
 /// The header of the bytes of a state.
 struct StateHeader {
-  std::uint64_t format = 5;      ///< increased when the fields of a class, or their order, change
+  std::uint64_t format = 6;      ///< increased when the fields of a class, or their order, change
   std::uint64_t parameters = 0;  ///< digest of the object's parameters
   std::uint64_t state = 0;       ///< digest of the bytes that follow
 };

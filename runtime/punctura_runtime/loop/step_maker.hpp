@@ -26,16 +26,18 @@ concept GivesModel = requires(const ModelOf make, const Scene& scene, std::vecto
 /// them.
 class StepMaker {
  public:
-  /// model_of(scene, problems): the model of a scene, or an empty optional and the scene's problems. It can be an
-  /// InsertionOf, or any class that ServoStepOf can hold.
+  /// model_of(scene, problems): the model of a scene that has passed check(), or an empty optional and its problems. It
+  /// can be an InsertionOf, whose laws are then checked, or any other Model.
   template <GivesModel ModelOf>
   StepMaker(ModelOf model_of)
       : make_([model_of = std::move(model_of)](const Scene& scene, const GateLimits& gate, const ForceLimits& limits) {
           return AnyStep::of(detail::or_throw([&](auto& problems) {
-            auto model = model_of(scene, problems);
+            problems = check(scene);
+            auto model = problems.empty() ? model_of(scene, problems) : decltype(model_of(scene, problems))();
             if (model && model->size() != scene.membranes.size())
               problems.push_back({"membrane", static_cast<double>(model->size()),
                                   "is the number of walls in the model; the scene must have as many membranes"});
+            detail::check_model(model, problems);
             if (!problems.empty()) model.reset();
             return detail::step_of(scene, std::move(model), problems, gate, limits);
           }));

@@ -283,7 +283,7 @@ TEST_CASE("the bytes of a state match its format number") {
     std::memcpy(&header, bytes.data(), sizeof header);
     return header.state;
   };
-  CHECK(StateHeader{}.format == 5);
+  CHECK(StateHeader{}.format == 6);
   CHECK(digest_of(save_state(insertion)) == 17756143676564190799u);
   CHECK(digest_of(save_state(line)) == 13125173204460860576u);
 }

@@ -3,6 +3,7 @@
 
 #include "core/support/allocations.hpp"
 #include "core/support/cut_law.hpp"
+#include "core/support/given_law.hpp"
 #include "core/support/tick.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
@@ -162,12 +163,46 @@ TEST_CASE("no model goes around the guard, whatever force it asks for") {
   CHECK(broken.loop->latest().force == zero);
   CHECK(broken.loop->latest().fault == Fault::non_finite_force);
 
-  // a model that gives its force at once, in the tissue: it comes with the fade
+  // a model that gives its force at once, also in the tissue: the guard bars it until the tip has been in front
   FeltRun felt{StepMaker()};
-  const double before = felt.loop->latest().force[1];
-  felt.loop->exchange(paper_scene(), pushes(before + 1));
-  CHECK(felt.largest_step(640) < 0.01);
-  CHECK(felt.loop->latest().force[1] == doctest::Approx(before + 1));
+  felt.loop->exchange(paper_scene(), pushes(1));
+  for (int scene = 0; scene < 2; ++scene) {  // another scene for the same model does not end this
+    CHECK(felt.largest_step(640) < 0.01);
+    CHECK(felt.loop->latest().force == zero);
+    CHECK(felt.loop->latest().model_force == zero);
+    felt.loop->exchange(paper_scene());
+  }
+  felt.device->move(-2e-3, 0, 100);
+  CHECK(felt.device->tick(1e-6)[1] < 0.01);  // and then fades it in
+  CHECK(felt.device->move(1e-3, -2e-3, 640)[1] == doctest::Approx(1));
+}
+
+TEST_CASE("a model of your own gets only a scene that is whole, and its laws and coupling are checked") {
+  using Table = GivenLaw<2>;
+  const Table grip{{{0}, {{{}, {0, {-1}, {1}}}}}}, pulls{{{0}, {{{}, {0, {1}, {2}}}}}};
+  const auto model = [](const Table& law, double g) {
+    return StepMaker([=](const Scene& scene, std::vector<Problem>&) {
+      const SiteOf<Table> site[] = {{law, to_vector(scene.membranes.at(0).point), {0, -1, 0}}};
+      SampledCoupling<double> coupling({400, 1}, T);
+      coupling.g = g;
+      return std::optional(InsertionOf<Table>(site, coupling, T));
+    });
+  };
+  const auto problem = [](const StepMaker& maker, const Scene& scene) {
+    try {
+      maker(scene, {}, {});
+    } catch (const SceneError& error) {
+      return line_of(error.problems().at(0));
+    }
+    return std::string();
+  };
+  CHECK(problem(model(grip, 2000), paper_scene()).empty());
+  CHECK(problem(model(pulls, 2000), paper_scene()).starts_with("membrane[0]: the law: its lower edge"));
+  CHECK(problem(model(grip, -1), paper_scene()).starts_with("coupling.g = -1: must be"));
+  Scene empty = paper_scene();
+  empty.membranes.clear();
+  empty.display.automatic = true;
+  CHECK(problem(pushes(1), empty).find("at least one membrane") != std::string::npos);
 }
 
 TEST_CASE("problems of scene, limits and model are told together, and the old model continues") {
