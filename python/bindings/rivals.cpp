@@ -17,7 +17,6 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
     AnyRival::for_each_kind([&](const auto& r) { add(r.name); });
     raise_word("rival", name, ("must be one of " + known).c_str());
   }
-  std::vector<Problem> problems;
   rival->visit([&](auto& run) {
     const auto all = run.rival.numbers();
     for (const auto& number : all) add(number.name);
@@ -27,12 +26,10 @@ AnyRival made(const std::string& name, const nb::dict& numbers) {
       if (number == all.end()) raise_word(path, word, ("is not a parameter of this rival. It has " + known).c_str());
       double& value = run.rival.*number->value;
       if (!nb::try_cast(given, value)) throw type_error(path + " must be a number");
-      if (value >= number->low && value <= number->high) continue;
-      const nb::object bounds =
-          nb::str("must be between {:g} and {:g} {}").attr("format")(number->low, number->high, number->unit);
-      problems.push_back({path, value, nb::cast<std::string>(bounds)});
     }
   });
+  std::vector<Problem> problems;
+  check(*rival, name, problems);
   raise_if(problems);
   return *rival;
 }

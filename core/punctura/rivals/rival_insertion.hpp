@@ -83,6 +83,17 @@ class AnyRival {
 };
 static_assert(std::is_trivially_copyable_v<AnyRival>);
 
+/// Adds a problem for each number of a rival that is outside its bounds.
+inline void check(const AnyRival& rival, const std::string& path, std::vector<Problem>& problems) {
+  rival.visit([&](const auto& run) {
+    for (const auto& number : run.rival.numbers())
+      if (const double value = run.rival.*number.value; !(value >= number.low && value <= number.high))
+        problems.push_back({path + "." + number.name, value,
+                            "must be between " + decimal_text(number.low) + " and " + decimal_text(number.high) + " " +
+                                number.unit});
+  });
+}
+
 /// A rival in the place of a Proxy3d. At entry from the front it fixes b, the needle's direction, as K06 (41) does.
 /// Inside it has the depth along b and the velocity along b, which is the difference of the last two positions over T.
 class RivalProxy {
@@ -205,6 +216,7 @@ inline std::optional<RivalInsertion> try_build_rivals(const Scene& scene, std::s
     found.push_back({"rivals", static_cast<double>(rivals.size()),
                      "must be one rival, or one for each of the " + std::to_string(scene.membranes.size()) +
                          " membranes of the scene"});
+  for (std::size_t i = 0; i < rivals.size(); ++i) check(rivals[i], "rivals[" + std::to_string(i) + "]", found);
   return detail::if_good(found, problems, [&] { return RivalInsertion(scene, rivals); });
 }
 

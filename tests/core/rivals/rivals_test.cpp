@@ -148,6 +148,14 @@ TEST_CASE("an automatic force scale follows from the rivals' forces, not from K0
   CHECK(scale(2) * n * 2 == doctest::Approx(automatic_share * lasting_force({})).epsilon(0.01));
 }
 
+TEST_CASE("a number of a rival outside its bounds is a problem, before the rival can pull the needle in") {
+  std::vector<Problem> problems;
+  const std::vector rivals(1, AnyRival(RivalRun<SignOfVelocity>{{.friction = -1}, {}}));
+  CHECK(!try_build_rivals(paper_scene(), rivals, problems));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].path == "rivals[0].friction");
+}
+
 TEST_CASE("rivals are one, or one for each membrane") {
   const Scene scene = rival_scene();
   std::vector<Problem> problems;

@@ -17,6 +17,12 @@ using namespace punctura;
 using namespace punctura::test;
 
 namespace {
+/// Its force is the place of the tip.
+struct Deep {
+  using Scalar = double;
+  int* steps;
+  Vector3d step(const Vector3d& p, const Vector3d&) noexcept { return ++*steps, p; }
+};
 
 /// A tip that waits in front until the ramp is over, and then moves in and out, deep through all walls.
 double stroke_depth(std::uint64_t k) {
@@ -163,6 +169,12 @@ TEST_CASE("the automatic scale follows the limits in use, and is 1 where the dev
   CHECK(build(scene, {}, weak).force_scale() == doctest::Approx(automatic_share * 0.2 / largest));
   CHECK(lasting_force({3.3, 0.4}) == doctest::Approx(std::sqrt(0.75) * 0.4));
   CHECK(build<float>(scene, {}, weak).force_scale() == doctest::Approx(automatic_share * 0.2 / largest));
+}
+
+TEST_CASE("a model without bands is tried with at most a million steps, also on a way of a kilometre") {
+  int steps = 0;
+  CHECK(largest_force(Deep{&steps}, {0, 0, 0}, {0, -1, 0}, 1000, T) == 1000);
+  CHECK(steps == 1'000'001);
 }
 
 TEST_CASE("check() allows a scale above 0 and up to 1") {
