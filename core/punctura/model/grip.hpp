@@ -14,7 +14,7 @@ namespace punctura {
 
 /// X, m: the tip length of the tissue, or w / tan(theta).
 template <typename Scalar>
-Scalar tip_length(const BasicNeedle<Scalar>& needle, const BasicTissue<Scalar>& tissue) noexcept {
+constexpr Scalar tip_length(const BasicNeedle<Scalar>& needle, const BasicTissue<Scalar>& tissue) noexcept {
   return tissue.tip_length == 0 ? tip_length(needle) : tissue.tip_length;
 }
 
@@ -23,7 +23,7 @@ template <typename Scalar>
 struct GripFactors {
   Scalar in, out, shaft;
 
-  GripFactors(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {
+  constexpr GripFactors(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane) noexcept {
     using namespace lane;
     const Scalar t = tan(needle.tip_angle), mu = membrane.friction;
     in = (2 * mu + (1 - mu * mu) * t) / (1 - mu * t);
@@ -35,7 +35,7 @@ struct GripFactors {
 namespace detail {
 /// (exp(x) - 1) / x, with all digits also near 0.
 template <typename Scalar>
-Scalar exp_ratio(const Scalar& x) noexcept {
+constexpr Scalar exp_ratio(const Scalar& x) noexcept {
   using namespace lane;
   if (x > Scalar(-0.02) && x < Scalar(0.02))
     return 1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7)))));
@@ -45,7 +45,8 @@ Scalar exp_ratio(const Scalar& x) noexcept {
 
 /// G(y), N: the wall's grip on a needle that opens it by y (m).
 template <typename Scalar>
-Scalar grip_at(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue, const Scalar& y) noexcept {
+constexpr Scalar grip_at(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
+                         const Scalar& y) noexcept {
   if (tissue.grip != GripShape::table) {
     const Scalar linear = membrane.stiffness * y;
     if (tissue.grip == GripShape::linear) return linear + membrane.precompression;
@@ -66,7 +67,7 @@ struct Chords {
   std::array<BasicGripPoint<Scalar>, max_knots - 2> points{};
   std::size_t count = 0;
 
-  void add(const Scalar& y, const Scalar& grip) noexcept { points[count++] = {y, grip}; }
+  constexpr void add(const Scalar& y, const Scalar& grip) noexcept { points[count++] = {y, grip}; }
 };
 
 namespace detail {
@@ -74,8 +75,8 @@ namespace detail {
 /// so that their mean error is 0 and the average over a wall has little error. The first chord is shifted only at its
 /// far end; its mean error is 0 if it is sqrt(1/2) times as long as the others.
 template <typename Scalar>
-Chords<Scalar> exponential_chords(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
-                                  const Scalar& w, std::size_t n) noexcept {
+constexpr Chords<Scalar> exponential_chords(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
+                                            const Scalar& w, std::size_t n) noexcept {
   using namespace lane;
   Chords<Scalar> chords;
   const Scalar b = tissue.growth, rise = exp(b * w / 2) - 1;
@@ -99,8 +100,8 @@ Chords<Scalar> exponential_chords(const BasicMembrane<Scalar>& membrane, const B
 }
 
 template <typename Scalar>
-Chords<Scalar> chords_of(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue, const Scalar& w,
-                         std::size_t n) noexcept {
+constexpr Chords<Scalar> chords_of(const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
+                                   const Scalar& w, std::size_t n) noexcept {
   Chords<Scalar> chords;
   if (tissue.grip == GripShape::exponential && n > 1) return exponential_chords(membrane, tissue, w, n);
   chords.add(Scalar(0), grip_at(membrane, tissue, Scalar(0)));
@@ -116,8 +117,8 @@ Chords<Scalar> chords_of(const BasicMembrane<Scalar>& membrane, const BasicTissu
 ///
 /// The error of G bounds it, and so does the range of the error's integral over H.
 template <typename Scalar>
-Scalar average_error(const Chords<Scalar>& chords, const BasicMembrane<Scalar>& membrane,
-                     const BasicTissue<Scalar>& tissue, const Scalar& w, const Scalar& X) noexcept {
+constexpr Scalar average_error(const Chords<Scalar>& chords, const BasicMembrane<Scalar>& membrane,
+                               const BasicTissue<Scalar>& tissue, const Scalar& w, const Scalar& X) noexcept {
   using namespace lane;
   if (tissue.grip != GripShape::exponential) return Scalar(0);
   constexpr auto samples = Lane<Scalar>(32);  // per chord
@@ -145,9 +146,9 @@ Scalar average_error(const Chords<Scalar>& chords, const BasicMembrane<Scalar>& 
 
 /// A force that -Phi_I reaches, N, along the normal: with the tip's end at the far face, or on the shaft alone.
 template <typename Scalar>
-Scalar reached_force(const Chords<Scalar>& chords, const GripFactors<Scalar>& factor,
-                     const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue, const Scalar& w,
-                     const Scalar& X) noexcept {
+constexpr Scalar reached_force(const Chords<Scalar>& chords, const GripFactors<Scalar>& factor,
+                               const BasicMembrane<Scalar>& membrane, const BasicTissue<Scalar>& tissue,
+                               const Scalar& w, const Scalar& X) noexcept {
   using namespace lane;
   const Scalar H = membrane.thickness, full = chords.points[chords.count - 1].grip;
   const Scalar shaft = factor.shaft * tissue.tail_floor * full;
@@ -185,8 +186,8 @@ struct ProfileOfCurve {
 /// `chords` of them if that is not 0: then the profile is a smooth function of the parameters, and its error is not
 /// computed.
 template <typename Scalar>
-ProfileOfCurve<Scalar> profile_of(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
-                                  const BasicTissue<Scalar>& tissue, std::size_t chords = 0) noexcept {
+constexpr ProfileOfCurve<Scalar> profile_of(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
+                                            const BasicTissue<Scalar>& tissue, std::size_t chords = 0) noexcept {
   const GripFactors<Scalar> factor(needle, membrane);
   const Scalar w = needle.diameter, X = tip_length(needle, tissue);
   const Scalar full = grip_at(membrane, tissue, w);

@@ -98,7 +98,7 @@ class MixedLaw {
 
   template <ObliqueLaw L>
     requires(std::same_as<L, Laws> || ...)
-  MixedLaw(const L& law) noexcept : law_(law) {
+  constexpr MixedLaw(const L& law) noexcept : law_(law) {
     visit([&]<std::size_t i>(const auto& one) { pieces_ = Pieces(std::in_place_index<i>, one.pieces()); });
   }
 
@@ -110,17 +110,17 @@ class MixedLaw {
   }
   constexpr Pieces pieces(const Memory& memory) const noexcept { return compute_pieces(memory); }
 
-  bool advance(Memory& memory, Scalar depth) const noexcept
+  constexpr bool advance(Memory& memory, Scalar depth) const noexcept
     requires(!(FeelsTime<Laws> || ...))
   {
     return advance_any(memory, depth, Scalar(0));
   }
-  bool advance(Memory& memory, Scalar depth, Scalar dt) const noexcept
+  constexpr bool advance(Memory& memory, Scalar depth, Scalar dt) const noexcept
     requires(FeelsTime<Laws> || ...)
   {
     return advance_any(memory, depth, dt);
   }
-  bool leave(Memory& memory) const noexcept
+  constexpr bool leave(Memory& memory) const noexcept
     requires(HearsLeaving<Laws> || ...)
   {
     bool changed = false;
@@ -129,7 +129,7 @@ class MixedLaw {
     });
     return changed;
   }
-  void refresh(Pieces& pieces, const Memory& memory) const noexcept
+  constexpr void refresh(Pieces& pieces, const Memory& memory) const noexcept
     requires((RefreshesPieces<Laws> || !LawWithMemory<Laws>) && ...)
   {
     visit([&]<std::size_t i>(const auto& law) {

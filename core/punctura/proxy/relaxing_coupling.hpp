@@ -42,7 +42,7 @@ class RelaxingCoupling {
     static void archive(auto& self, auto& state) { state.fields(self.force); }
     template <typename M>
       requires(!std::same_as<M, bool>)
-    friend Memory select(const M& mask, const Memory& a, const Memory& b) noexcept {
+    friend constexpr Memory select(const M& mask, const Memory& a, const Memory& b) noexcept {
       Memory chosen;
       for (std::size_t i = 0; i < max_branches; ++i) chosen.force[i] = select(mask, a.force[i], b.force[i]);
       return chosen;

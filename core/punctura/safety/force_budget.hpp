@@ -20,37 +20,37 @@ class BasicForceBudget {
   static constexpr auto burst_share = Lane<Scalar>(0.25);
 
   /// window: s. rating: N rms.
-  BasicForceBudget(Scalar window, Scalar rating) noexcept
+  constexpr BasicForceBudget(Scalar window, Scalar rating) noexcept
       : depth_(burst_share * rating * rating * window), rate_((1 - burst_share) * rating * rating) {}
 
   /// Counts a force that was given for a time. square: the squared force, N^2. time: s. NaN empties the budget.
-  void spend(Scalar square, Scalar time) noexcept {
+  constexpr void spend(Scalar square, Scalar time) noexcept {
     using namespace lane;
     const Scalar spent = spent_ + (square - rate_) * time;
     spent_ = select(spent == spent, min(max(spent, Scalar(0)), most()), most());
   }
 
   /// The square (N^2) of the largest force that the guarantee permits for a time (s), with so much (N^2 s) spent.
-  Scalar permitted_square(Scalar time, Scalar spent) const noexcept {
+  constexpr Scalar permitted_square(Scalar time, Scalar spent) const noexcept {
     using namespace lane;
     return rate_ + max(Scalar(0), Scalar(depth_ - spent)) / time;
   }
 
   /// The part of the bucket that is left, 0 to 1.
-  Scalar left() const noexcept {
+  constexpr Scalar left() const noexcept {
     using namespace lane;
     return min(max(Scalar(1 - spent_ / depth_), Scalar(0)), Scalar(1));
   }
 
   /// The most that a burst can take, N^2 s.
-  Scalar depth() const noexcept { return depth_; }
+  constexpr Scalar depth() const noexcept { return depth_; }
 
   /// The square (N^2) of the largest constant force.
-  Scalar rate() const noexcept { return rate_; }
+  constexpr Scalar rate() const noexcept { return rate_; }
 
   /// The amount that was taken from the bucket and has not returned yet, N^2 s.
-  Scalar spent() const noexcept { return spent_; }
-  void set_spent(Scalar spent) noexcept {
+  constexpr Scalar spent() const noexcept { return spent_; }
+  constexpr void set_spent(Scalar spent) noexcept {
     using namespace lane;
     spent_ = select(spent > 0, spent, Scalar(0));
   }
@@ -63,7 +63,7 @@ class BasicForceBudget {
 
  private:
   /// The upper bound of spent_. With it, the budget has room again after a rest of `window` at the latest.
-  Scalar most() const noexcept { return depth_ / burst_share; }
+  constexpr Scalar most() const noexcept { return depth_ / burst_share; }
 
   Scalar depth_, rate_;
   Scalar spent_ = 0;

@@ -76,7 +76,7 @@ class BasicForceLimiter {
   };
   State state{};
 
-  BasicForceLimiter(const ForceLimits& limits, const Scalar& period) noexcept
+  constexpr BasicForceLimiter(const ForceLimits& limits, const Scalar& period) noexcept
       : max_force_(static_cast<Scalar>(limits.max_force)),
         warm_motor_(static_cast<Scalar>(limits.warm_motor)),
         budget_(static_cast<Scalar>(limits.continuous_time), static_cast<Scalar>(limits.continuous_force)),
@@ -95,12 +95,12 @@ class BasicForceLimiter {
   }
 
   /// Starts a new ramp. The budget and the counters stay, because motors do not cool by a reset.
-  void reset(const Truth& lanes = Truth(true)) noexcept {
+  constexpr void reset(const Truth& lanes = Truth(true)) noexcept {
     using namespace lane;
     state.gain = select(lanes, Scalar(0), state.gain);
   }
   /// Forgets its state in these lanes.
-  void restart(const Truth& lanes) noexcept {
+  constexpr void restart(const Truth& lanes) noexcept {
     using namespace lane;
     reset(lanes);
     state.cool = select(lanes, Scalar(1), state.cool);
@@ -110,8 +110,8 @@ class BasicForceLimiter {
   /// One tick. wanted: the force of the model times the force scale, N, finite. Returns the force for the device, N.
   /// motor_temperature: 0 to 1. elapsed: s since the previous tick; NaN in the first tick of a run; a period if it is
   /// left out.
-  Vector step(const Vector& wanted, const Scalar& motor_temperature = Scalar(0),
-              const Scalar& elapsed = Scalar(unknown_time)) noexcept {
+  constexpr Vector step(const Vector& wanted, const Scalar& motor_temperature = Scalar(0),
+                        const Scalar& elapsed = Scalar(unknown_time)) noexcept {
     using namespace lane;
     count(elapsed);
     state.gain = min(Scalar(1), Scalar(state.gain + ramp_step_));
@@ -136,23 +136,24 @@ class BasicForceLimiter {
   }
 
   /// One tick without force. motor_temperature: 0 to 1. elapsed: s since the previous tick, as in step().
-  void rest(const Scalar& motor_temperature = Scalar(0), const Scalar& elapsed = Scalar(unknown_time)) noexcept {
+  constexpr void rest(const Scalar& motor_temperature = Scalar(0),
+                      const Scalar& elapsed = Scalar(unknown_time)) noexcept {
     count(elapsed);
     feel(motor_temperature);
     ceiling_ = permitted();
   }
 
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
-  void end(const Scalar& elapsed) noexcept { count(elapsed); }
+  constexpr void end(const Scalar& elapsed) noexcept { count(elapsed); }
 
-  Scalar ceiling() const noexcept { return ceiling_; }  ///< the largest force that the last tick permitted, N
-  Acting limit() const noexcept { return limit_; }      ///< the limit that reduced the force of the last tick
-  Scalar gain() const noexcept { return state.gain; }   ///< gain of the ramp, 0 to 1
-  const LimitCounters& counters() const noexcept { return state.counters; }
+  constexpr Scalar ceiling() const noexcept { return ceiling_; }  ///< the largest force that the last tick permitted, N
+  constexpr Acting limit() const noexcept { return limit_; }      ///< the limit that reduced the force of the last tick
+  constexpr Scalar gain() const noexcept { return state.gain; }   ///< gain of the ramp, 0 to 1
+  constexpr const LimitCounters& counters() const noexcept { return state.counters; }
 
-  const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
+  constexpr const BasicForceBudget<Scalar>& budget() const noexcept { return budget_; }
   /// Sets how much the motors of the device have given before, N^2 s. See ForceBudget::spent.
-  void set_spent(const Scalar& spent) noexcept { budget_.set_spent(spent); }
+  constexpr void set_spent(const Scalar& spent) noexcept { budget_.set_spent(spent); }
 
   static void archive(auto& self, auto& state) {
     auto& own = self.state;
@@ -170,7 +171,7 @@ class BasicForceLimiter {
  private:
   /// Warm motors reduce the ceiling at once. It returns slowly, so that a sensor that fails now and then cannot switch
   /// the force on and off. NaN reduces it to 0.
-  void feel(const Scalar& temperature) noexcept {
+  constexpr void feel(const Scalar& temperature) noexcept {
     using namespace lane;
     const Scalar cooler = min(Scalar(1), Scalar(state.cool + cooling_step_));
     const Truth cold = temperature <= warm_motor_;
@@ -180,7 +181,7 @@ class BasicForceLimiter {
   }
 
   /// A force whose norm is at most the ceiling, with the direction of `force`. close: where it may be larger.
-  Vector clamped(const Vector& force, const Truth& close) noexcept {
+  constexpr Vector clamped(const Vector& force, const Truth& close) noexcept {
     using namespace lane;
     const Scalar norm = force.stableNorm();
     const Truth over = close && !(norm <= ceiling_), warm = state.cool < 1, spent = ceiling_ < max_force_;
@@ -190,7 +191,7 @@ class BasicForceLimiter {
     return select(over, Vector(force / norm * ceiling_), force);
   }
 
-  Scalar permitted() const noexcept {
+  constexpr Scalar permitted() const noexcept {
     using namespace lane;
     if (all(budget_.spent() <= full_until_)) return state.cool * full_;  // the same as below, to the bit
     const Scalar share = min(Scalar(1), Scalar(2 * budget_.left()));
@@ -199,7 +200,7 @@ class BasicForceLimiter {
   }
 
   /// Counts the force of the previous tick for the time that the device held it.
-  void count(const Scalar& elapsed) noexcept {
+  constexpr void count(const Scalar& elapsed) noexcept {
     using namespace lane;
     const Truth known = elapsed >= 0 && elapsed <= std::numeric_limits<Lane<Scalar>>::max();
     Scalar time = elapsed;
@@ -215,7 +216,7 @@ class BasicForceLimiter {
   }
 
   /// where: whether this limit acts.
-  void act(Limit limit, const Truth& where) noexcept {
+  constexpr void act(Limit limit, const Truth& where) noexcept {
     if constexpr (Lanes<Scalar>) {
       limit_ = limit_ || where;
     } else if (where) {

@@ -40,25 +40,25 @@ class BasicInputGate {
   State state{};
 
   /// period: T, s.
-  BasicInputGate(const GateLimits& limits, const Time& period, bool axis_is_used) noexcept
+  constexpr BasicInputGate(const GateLimits& limits, const Time& period, bool axis_is_used) noexcept
       : limits_(limits), period_(period), axis_is_used_(axis_is_used) {}
 
   /// Whether a dead-man button is held, or none is needed. If not, there is no force, but this is no fault.
-  bool held(const DeviceSample& s) const noexcept {
+  constexpr bool held(const DeviceSample& s) const noexcept {
     return limits_.dead_man == 0 || (s.buttons & limits_.dead_man) != 0;
   }
 
   /// Checks a sample. Returns its fault, or Fault::none.
-  Fault step(const DeviceSample& s) noexcept {
+  constexpr Fault step(const DeviceSample& s) noexcept {
     if (!s.healthy) return Fault::device;
     const Vector position = to_vector(s.position).template cast<Scalar>(),
                  axis = to_vector(s.axis).template cast<Scalar>();
-    if (!is_place(position) || !std::isfinite(s.time + s.motor_temperature + s.thumb_felt))
+    if (!is_place(position) || !lane::finite(s.time + s.motor_temperature + s.thumb_felt))
       return Fault::non_finite_input;
-    if (!is_place(s.thumb)) return std::isnan(s.thumb) ? Fault::thumb : Fault::non_finite_input;
+    if (!is_place(s.thumb)) return s.thumb == s.thumb ? Fault::non_finite_input : Fault::thumb;
     if (axis_is_used_) {
       if (!axis.allFinite()) return Fault::non_finite_input;
-      if (!(std::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;
+      if (!(lane::abs(axis.norm() - 1) <= static_cast<Scalar>(limits_.axis_tolerance))) return Fault::bad_axis;
     }
     if (state.started) {
       if (!(s.time >= state.time)) return Fault::clock;
@@ -73,7 +73,7 @@ class BasicInputGate {
   }
 
   /// Checks a sample in each lane: a new reading, later than the last. Returns the lanes without a fault.
-  Mask<Scalar> step(const Vector& position, const Time& time) noexcept
+  constexpr Mask<Scalar> step(const Vector& position, const Time& time) noexcept
     requires Lanes<Scalar>
   {
     const auto good =
@@ -84,7 +84,7 @@ class BasicInputGate {
     return good;
   }
   /// The next sample of these lanes is their first.
-  void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
+  constexpr void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
   static void archive(auto& self, auto& state) {
     auto& own = self.state;
@@ -96,10 +96,10 @@ class BasicInputGate {
   }
 
  private:
-  Mask<Scalar> in_time(const Time& time) const noexcept { return time - state.time <= limits_.deadline; }
+  constexpr Mask<Scalar> in_time(const Time& time) const noexcept { return time - state.time <= limits_.deadline; }
   /// Whether a hand can have come here since the last reading, `elapsed` s ago. Two readings that arrive close together
   /// can be a period apart. Therefore the time is at least T.
-  Mask<Scalar> within_reach(const Vector& position, const Time& elapsed) const noexcept {
+  constexpr Mask<Scalar> within_reach(const Vector& position, const Time& elapsed) const noexcept {
     using namespace lane;
     const auto farthest = static_cast<Scalar>(limits_.max_speed * max(period_, elapsed));
     return (position - state.position).squaredNorm() <= farthest * farthest;

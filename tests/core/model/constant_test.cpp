@@ -9,8 +9,12 @@
 
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
+#include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/proxy_1d.hpp"
 #include "punctura/proxy/proxy_3d.hpp"
+#include "punctura/proxy/relaxing_coupling.hpp"
+#include "punctura/safety/force_limits.hpp"
+#include "punctura/safety/input_gate.hpp"
 
 // Tests are compiled together; these short names are of this file.
 namespace punctura::constant_test {
@@ -32,14 +36,44 @@ static_assert(near(thin_law.band(thin_law.constants().X).lower, -0.7356679904123
 static_assert(near(thick_law.band(thick_law.constants().X).lower, -0.7297894621175145));
 static_assert(thin_law.band(-1e-9).lower == 0 && thick_law.band(0).upper == 0);
 
+/// A wall that the needle cuts and in which a hole stays, and a coupling that relaxes.
+constexpr TissueLaw tissue_law() {
+  Tissue tissue;
+  tissue.tip_length = 3e-3;
+  tissue.cutting = 0.2;
+  tissue.set = 0.5;
+  return {needle, thick, tissue};
+}
+constexpr TissueLaw measured = tissue_law();
+constexpr RelaxingCoupling<double> relaxing(
+    {.K = 400, .g = 2300, .inv_g = 1 / 2300.0, .free_share = 0.8, .branches = {{{0.9, 300}}}, .count = 1});
+
+/// Gate and limiter: what they let through of a stronger force, N.
+constexpr double limited() {
+  InputGate gate({}, period, true);
+  ForceLimiter limiter({.max_force = 1, .ramp_time = period}, period);
+  double force = 0;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    const DeviceSample sample{k, static_cast<double>(k) * period, {0, 1e-3, 0}, {0, -1, 0}, 0, true};
+    force = gate.step(sample) == Fault::none ? limiter.step({0, 3, 4}).norm() : -1;
+  }
+  return force;
+}
+static_assert(limited() == 1);
+static_assert([] {
+  InputGate gate({}, period, true);
+  return gate.step({0, 0, {0, 2e6, 0}, {0, -1, 0}, 0, true});
+}() == Fault::non_finite_input);
+
 /// The forces of a stroke in and out, on a line and in space (N).
 constexpr std::size_t ticks = 40;
 struct Forces {
   std::array<double, ticks> line{}, space{};
 };
-constexpr Forces forces(const ThickLaw& law, const Coupling& c, Solver solver) {
-  Proxy1d<ThickLaw> line(law, c, period, solver);
-  Proxy3d<ThickLaw> space(law, {0, 1e-3, 0}, {0.6, -0.8, 0}, c, period, solver);
+template <typename L, typename C>
+constexpr Forces forces(const L& law, const C& c, Solver solver) {
+  Proxy1d<L, C> line(law, c, solver);
+  Proxy3d<L, C> space(law, {0, 1e-3, 0}, {0.6, -0.8, 0}, c, solver);
   Forces f;
   for (std::size_t k = 0; k < ticks; ++k) {
     const double depth = -1e-3 + 5e-4 * static_cast<double>(k < 24 ? k : 47 - k);
@@ -48,18 +82,25 @@ constexpr Forces forces(const ThickLaw& law, const Coupling& c, Solver solver) {
   }
   return f;
 }
-constexpr Forces paper = forces(thick_law, coupling, Solver::paper), exact = forces(thick_law, coupling, Solver::exact);
+constexpr SampledCoupling<double> sampled(coupling, period);
+constexpr Forces paper = forces(thick_law, sampled, Solver::paper), exact = forces(thick_law, sampled, Solver::exact),
+                 tissue = forces(measured, relaxing, Solver::exact);
 
 }  // namespace
 
 TEST_CASE("both solvers give the same bits while the program is compiled and while it runs") {
   volatile double stiffness = coupling.stiffness;  // the compiler does not know it
-  const Coupling now{stiffness, coupling.damping};
+  const SampledCoupling<double> now({stiffness, coupling.damping}, period);
   const Forces paper_now = forces(thick_law, now, Solver::paper), exact_now = forces(thick_law, now, Solver::exact);
   CHECK(paper_now.line == paper.line);
   CHECK(paper_now.space == paper.space);
   CHECK(exact_now.line == exact.line);
   CHECK(exact_now.space == exact.space);
+  auto constants = relaxing.constants();
+  constants.K = stiffness;
+  const Forces tissue_now = forces(measured, RelaxingCoupling<double>(constants), Solver::exact);
+  CHECK(tissue_now.line == tissue.line);
+  CHECK(tissue_now.space == tissue.space);
 }
 
 TEST_CASE("the square root of a constant is that of the processor") {
