@@ -1,12 +1,12 @@
-// A law of your own with memory and time, a skin that heals: tried in a batch, felt on a device, and recorded.
+// A law of your own with memory and time, a skin that heals: tried on all processors, felt on a device, recorded.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <future>
-#include <map>
+#include <vector>
 
 #include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
+#include "punctura_runtime/batch/blocks.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 
 using namespace punctura;
@@ -17,7 +17,7 @@ struct SkinLaw {
     double front, hole;  ///< the deepest point of this insertion, and of all, m
     double healed;       ///< how far the skin between them has healed: 0 is open, 1 is whole
   };
-  double cut, friction, bottom;  // N, N, m
+  double bottom, cut = 0.8, friction = 0.05;  // m, N, N
 
   PiecewiseBand<double, 5> pieces(double = 1, const Memory& m = {}) const noexcept {
     const double front = std::min(m.front, bottom), hole = std::clamp(m.hole, front, bottom);
@@ -35,19 +35,19 @@ struct SkinLaw {
 
 int main() {
   const Scene scene{"skin", {1.08e-3, 0.28}, {400, 1}, {{"skin", {570, 0.8, 0.05, 2e-3}, {0, 0, 0}, {0, -1, 0}}}};
-  const auto law_of = [](Needle, Membrane m, auto) { return SkinLaw{m.precompression, m.friction, m.thickness}; };
+  const auto law_of = [](Needle, Membrane m, auto) { return SkinLaw{m.thickness}; };
   const auto twice = [](double rest) { return StrokesMotion({{0, 5e-3, 0}, {0, -9e-3, 0}, 2, 0.5, rest, 0}, 1); };
 
-  std::map<double, std::future<double>> peaks;  // N, of the second insertion, after a rest of so many s
-  for (double rest : {0.5, 1.0, 2.0, 4.0, 8.0})
-    peaks[rest] = std::async([&, rest] {
-      Experiment trial(build<double>(scene, law_of), 1 / 1600.0, twice(rest), {0, -1, 0});
-      double peak = 0;
-      for (int k = 0; k < 1600 * (2 + 5 * rest); ++k)
-        if (const Snapshot& s = trial.step(); k > 1600 * (1 + 3 * rest)) peak = std::max(peak, s.force[1]);
-      return peak;
-    });
-  for (auto& [rest, peak] : peaks) std::printf("rest %4.1f s   second peak %6.3f N\n", rest, peak.get());
+  const std::vector rests{0.5, 1.0, 2.0, 4.0, 8.0};  // s
+  std::vector peaks(rests.size(), 0.0);              // N, of the second insertion
+  batch::Work work;
+  const auto trial = [&](std::size_t i) {
+    Experiment hand(build<double>(scene, law_of), 1 / 1600.0, twice(rests[i]), {0, -1, 0});
+    for (int k = 0; k < 1600 * (2 + 5 * rests[i]); ++k)
+      if (const Snapshot& s = hand.step(); k > 1600 * (1 + 3 * rests[i])) peaks[i] = std::max(peaks[i], s.force[1]);
+  };
+  batch::for_each_block(rests.size(), batch::usable_threads(0), work, trial, {});
+  for (std::size_t i = 0; i < rests.size(); ++i) std::printf("rest %3.1f s: second peak %.3f N\n", rests[i], peaks[i]);
 
   // On hardware: open_device("openhaptics"), from punctura_runtime/backends/registry.hpp, and loop.run(30).
   const auto device = std::make_shared<SimulatedDevice>(twice(1), SimulatedOptions{.real_time = false, .ticks = 14400});
