@@ -195,7 +195,9 @@ class Reader {
     double* const diameter = places_.number(path);
     for (const GaugeDiameter& row : gauge_diameters)
       if (given && given->get() == row.gauge) *diameter = row.diameter;
-    if (!given || std::isnan(*diameter)) problem(place, "must be a whole number from 10 to 34, ISO 9626");
+    if (!given || std::isnan(*diameter))
+      problem(place, "must be a gauge of ISO 9626, " + std::to_string(std::begin(gauge_diameters)->gauge) + " to " +
+                         std::to_string(std::rbegin(gauge_diameters)->gauge));
   }
 
   const SceneText& text_;

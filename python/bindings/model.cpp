@@ -110,16 +110,15 @@ GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> 
     if (values->size() != n)
       problems.push_back({std::string("len(") + name + ")", static_cast<double>(values->size()),
                           "must be the number of depths, " + std::to_string(n)});
-  if (n == 0 || n > max_knots) problems.push_back({"len(depth)", static_cast<double>(n), "must be 1 to 32 knots"});
+  if (n == 0 || n > max_knots)
+    problems.push_back({"len(depth)", static_cast<double>(n), "must be 1 to " + std::to_string(max_knots) + " knots"});
   const Field& H = field_of(membrane_fields, &Membrane::thickness);
   check_field(H, thickness, "", problems);
   check_field(obliquity_field, obliquity, "", problems);
   raise_if(problems);
   std::vector<Knot> knots;
   for (std::size_t i = 0; i < n; ++i) knots.push_back({depth[i], lower[i], upper[i]});
-  const auto path_of = [](std::size_t i, const char* field) {
-    return std::string(field) + "[" + std::to_string(i) + "]";
-  };
+  const auto path_of = [](std::size_t i, const std::string& field) { return field + "[" + std::to_string(i) + "]"; };
   check_profile(knots, "depth", path_of, problems);
   raise_if(problems);
   return {ProfileLaw(Profile(knots), thickness, std::cos(obliquity)), depth, lower, upper, obliquity};

@@ -84,7 +84,7 @@ std::vector<SceneField> fields_of(const Scene& scene) {
   for_each_value(scene, [&](const std::string& path, const Field& field, double value) {
     const Range& range = field.range;
     all.push_back({path, value, std::string(field.symbol), std::string(field.unit), range.min, range.max,
-                   range.min_open, range.max_open, range.reason});
+                   range.min_open, range.max_open, bound_text(field)});
   });
   return all;
 }

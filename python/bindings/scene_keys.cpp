@@ -91,7 +91,6 @@ constexpr std::tuple range_rows{
     row("max", &Range::max),
     row("min_open", &Range::min_open, "Whether it must be greater than min."),
     row("max_open", &Range::max_open, "Whether it must be less than max."),
-    row("reason", &Range::reason, "The reason for the bounds."),
 };
 
 }  // namespace
@@ -109,6 +108,7 @@ void bind_scene_keys(nb::module_& m) {
   get("default", "In SI; None if the file must have the key", &default_of,
       nb::sig("def default(self) -> float | str | tuple[()] | None"));
   get("required", "", &SceneKey::required);
+  get("reason", "The bounds as a sentence, with the reason for them.", [](auto& k) { return bound_text(k.field); });
 
   m.def("scene_keys", &scene_keys, "All keys of a scene file, in the order of the file.");
   m.def(

@@ -43,23 +43,24 @@ std::string one_of() {
 
 inline constexpr double no_bound = std::numeric_limits<double>::infinity();
 
-/// A number that is not given. No range holds it, so check() reports it.
+/// A number that is not given, not known, or of something that is not there. No range holds it, so check() reports it.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
-/// The permitted range of one field, SI. Schemas and documents read their bounds from here.
+/// The permitted range of one field, SI. Schemas, documents and bound_text() read the bounds from here.
 struct Range {
   double min = -no_bound;
   double max = no_bound;
   bool min_open = false, max_open = false;
-  const char* reason = "must be a finite number";
+  const char* why = "";     ///< the end of the sentence: ": no device counts coarser"
+  const char* at_min = "";  ///< what the lower bound means
 
   bool holds(double v) const noexcept {
     return std::isfinite(v) && (min_open ? v > min : v >= min) && (max_open ? v < max : v <= max);
   }
 };
 
-inline constexpr Range greater_than_0{0, no_bound, true, true, "must be greater than 0"};
-inline constexpr Range at_least_0{0, no_bound, false, true, "must be 0 or more"};
+inline constexpr Range greater_than_0{0, no_bound, true, true};
+inline constexpr Range at_least_0{0, no_bound, false, true};
 
 /// A unit of files: the end of a key, as in thickness_mm, its name, and its size in SI: digits times 10^exponent.
 struct FileUnit {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "punctura/model/validity.hpp"
@@ -24,12 +25,12 @@ using Knot = BasicKnot<double>;
 
 // clang-format off
 inline constexpr FieldOf<Knot> knot_fields[] = {
-    {{"depth", "q", "m", {0, 1e6, false, false, "must be a number from 0 to 1e6 m"},
+    {{"depth", "q", "m", {0, 1e6},
       "A measured profile of an infinitely thin wall, in place of grip and tail: depths of its knots.",
       in_unit("mm"), {}, "Profile, depths"}, &Knot::depth},
-    {{"lower", "phi_I", "N", {-1e6, 0, false, false, "must be 0 N or less: the lower edge resists insertion"},
+    {{"lower", "phi_I", "N", {-1e6, 0, false, false, ": the lower edge resists insertion"},
       "The force on the way in at each knot, 0 or less.", in_unit("N"), {}, "Profile, lower"}, &Knot::lower},
-    {{"upper", "phi_O", "N", {-1e6, 1e6, false, false, "must be a number within 1e6 N"},
+    {{"upper", "phi_O", "N", {-1e6, 1e6},
       "The force on the way out at each knot.", in_unit("N"), {}, "Profile, upper"}, &Knot::upper},
 };
 // clang-format on
@@ -66,30 +67,29 @@ template <typename PathOf>
 bool check_profile(std::span<const Knot> knots, const std::string& path, PathOf&& path_of,
                    std::vector<Problem>& problems) {
   const std::size_t before = problems.size(), n = knots.size();
-  static_assert(max_knots == 32);
-  if (n == 0 || n > max_knots) problems.push_back({path, static_cast<double>(n), "must have 1 to 32 knots"});
+  if (n == 0 || n > max_knots)
+    problems.push_back({path, static_cast<double>(n), "must have 1 to " + std::to_string(max_knots) + " knots"});
   for (std::size_t i = 0; i < n; ++i) {
     const auto& [depth, lower, upper] = knots[i];
-    const auto add = [&](const char* field, double value, const char* reason) {
-      problems.push_back({path_of(i, field), value, reason});
+    const auto add = [&](std::string_view field, double value, const std::string& reason) {
+      problems.push_back({path_of(i, std::string(field)), value, reason});
     };
-    if (!knot_fields[0].range.holds(depth)) add("depth", depth, knot_fields[0].range.reason);
+    for (const auto& field : knot_fields)
+      if (!field.range.holds(knots[i].*field.member)) add(field.name, knots[i].*field.member, bound_text(field));
     if (i == 1 && depth == knots[0].depth) add("depth", depth, "must be greater than the depth of the first knot");
     if (i > 0 && depth != knots[i - 1].depth && !(depth - knots[i - 1].depth >= 1e-9))
       add("depth", depth, "must be the depth of the knot before it, for a jump, or greater by 1e-9 m or more");
     if (i > 1 && depth == knots[i - 1].depth && depth == knots[i - 2].depth)
       add("depth", depth, "must not be the depth of both knots before it: at most two knots make a jump");
-    const Range& within = knot_fields[2].range;
-    if (!within.holds(lower)) add("lower", lower, within.reason);
-    if (!within.holds(upper)) add("upper", upper, within.reason);
-    if (lower > 0) add("lower", lower, knot_fields[1].range.reason);
     if (lower > upper) add("lower", lower, "must not be greater than upper at the same knot");
   }
   return problems.size() == before;
 }
 /// The same for a list of knots: the paths are path[i].depth, path[i].lower and path[i].upper.
 inline bool check_profile(std::span<const Knot> knots, const std::string& path, std::vector<Problem>& problems) {
-  const auto path_of = [&](std::size_t i, const char* field) { return path + "[" + std::to_string(i) + "]." + field; };
+  const auto path_of = [&](std::size_t i, const std::string& field) {
+    return path + "[" + std::to_string(i) + "]." + field;
+  };
   return check_profile(knots, path, path_of, problems);
 }
 

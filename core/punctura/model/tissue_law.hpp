@@ -154,7 +154,7 @@ class BasicTissueLaw {
 using TissueLaw = BasicTissueLaw<double>;
 static_assert(ObliqueLaw<TissueLaw> && LawWithMemory<TissueLaw>);
 
-/// Adds a problem if 28 chords do not follow the grip, or if the cutting begins in front of the profile. Returns true
+/// Adds a problem if most_chords do not follow the grip, or if the cutting begins in front of the profile. Returns true
 /// if there is none. All parameters must be inside their ranges.
 inline bool check_curve(const Needle& needle, const Membrane& membrane, const Tissue& tissue, const std::string& path,
                         std::vector<Problem>& problems) {
@@ -169,9 +169,10 @@ inline bool check_curve(const Needle& needle, const Membrane& membrane, const Ti
   const auto made = profile_of(needle, membrane, tissue);
   if (made.follows && std::isfinite(made.error)) return true;  // the grip may overflow
   problems.push_back({dot + "growth", tissue.growth,
-                      "is too large for this needle: 28 chords miss the grip by more than 1e-4 of the largest force. "
-                      "Take "
-                      "a growth nearer to 0, a thicker wall, or a grip_table of your own"});
+                      "is too large for this needle: " + std::to_string(most_chords) +
+                          " chords miss the grip by more than " + decimal_text(most_chord_error) +
+                          " of the largest force. Take a growth nearer to 0, a thicker wall, or a grip_table of your "
+                          "own"});
   return false;
 }
 

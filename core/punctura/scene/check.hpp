@@ -24,23 +24,23 @@ inline constexpr std::tuple gate_rows{
     FieldOf<GateLimits>{{"max_speed", "", "m/s", greater_than_0, "Between two readings."}, &GateLimits::max_speed},
     FieldOf<GateLimits>{{"stale", "", "s", greater_than_0, "Longest time without a new reading."}, &GateLimits::stale},
     FieldOf<GateLimits>{{"deadline", "", "s", greater_than_0, "Longest time between ticks."}, &GateLimits::deadline},
-    FieldOf<GateLimits>{{"axis_tolerance", "", "-", {0, 0.1, true, false, "must be greater than 0 and at most 0.1"},
+    FieldOf<GateLimits>{{"axis_tolerance", "", "-", {0, 0.1, true},
       "Deviation of the axis' length from 1."}, &GateLimits::axis_tolerance},
     FieldOf<GateLimits, std::uint32_t>{{"dead_man", "", "", {},
       "Buttons (bits), one of which must be held; 0 for none."}, &GateLimits::dead_man},
 };
 inline constexpr auto gate_fields = numbers_of(gate_rows);
 
-inline constexpr Range a_force = {0, no_bound, true, true, "must be greater than 0: to give no force, do not arm"};
+inline constexpr Range a_force = {0, no_bound, true, true, ": to give no force, do not arm"};
 inline constexpr FieldOf<ForceLimits> limit_fields[] = {
     {{"max_force", "", "N", a_force, "Norm."}, &ForceLimits::max_force},
     {{"continuous_force", "", "N", a_force, "Rms, over any continuous_time."}, &ForceLimits::continuous_force},
     {{"continuous_time", "", "s",
-      {0, 60, true, false, "must be greater than 0 and at most 60 s: over a longer time motors would overheat"},
+      {0, 60, true, false, ": over a longer time motors would overheat"},
       "Of the rms."}, &ForceLimits::continuous_time},
-    {{"ramp_time", "", "s", {0, no_bound, true, true, "must be greater than 0: force must not come at once"},
+    {{"ramp_time", "", "s", {0, no_bound, true, true, ": force must not come at once"},
       "From zero to full force after arming."}, &ForceLimits::ramp_time},
-    {{"warm_motor", "", "-", {0, 1, false, true, "must be from 0 to below 1"},
+    {{"warm_motor", "", "-", {0, 1, false, true},
       "Motor temperature (0 to 1) above which the force decreases, to zero at 1."}, &ForceLimits::warm_motor},
 };
 
@@ -88,7 +88,8 @@ inline void check(const SyringeSettings& settings, std::vector<Problem>& problem
 
 inline void check(const ServoSettings& servo, std::vector<Problem>& problems) {
   if (check_fields(servo_fields, servo, "servo", problems) && std::trunc(servo.sub_steps) != servo.sub_steps)
-    problems.push_back({"servo.sub_steps", servo.sub_steps, "must be a whole number"});
+    problems.push_back(
+        {"servo.sub_steps", servo.sub_steps, bound_text(field_of(servo_fields, &ServoSettings::sub_steps))});
 }
 
 /// The problems of a membrane's place: point and inward normal.

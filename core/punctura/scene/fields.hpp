@@ -13,18 +13,18 @@ namespace punctura {
 // clang-format off
 inline constexpr FieldOf<Coupling> coupling_fields[] = {
     {{"stiffness", "K", "N/m",
-      {0, no_bound, true, true, "must be greater than 0: the proxy hangs on this spring, K06 (21)"},
+      {0, no_bound, true, true, ": the proxy hangs on this spring, K06 (21)"},
       "Spring of the virtual coupling.", in_unit("N_per_mm"), {5, 1e5}}, &Coupling::stiffness},
-    {{"damping", "B", "N s/m", {0, no_bound, false, true, "must be 0 or more, K06 (21)"},
+    {{"damping", "B", "N s/m", {0, no_bound, false, true, ", K06 (21)"},
       "Damper of the virtual coupling.", in_unit("Ns_per_mm")}, &Coupling::damping},
 };
 
 inline constexpr FieldOf<MaxwellBranch> branch_fields[] = {
-    {{"stiffness", "K_m", "N/m", {0, no_bound, false, true, "must be 0 (no branch) or more"},
+    {{"stiffness", "K_m", "N/m", {0, no_bound, false, true, "", "no branch"},
       "Springs of the branches whose force decays while the needle rests, at most two. Empty is K06's coupling.",
       in_unit("N_per_mm"), {}, "Relaxation, stiffness"}, &MaxwellBranch::stiffness},
     {{"time_constant", "tau", "s",
-      {1e-4, 1e4, false, false, "must be from 0.0001 s, less than a tick, to 10000 s, longer than a run"},
+      {1e-4, 1e4, false, false, ": from less than a tick to longer than a run"},
       "Time constant of each branch.", in_unit("s"), {}, "Relaxation, time"}, &MaxwellBranch::time_constant},
 };
 template <>
@@ -32,9 +32,9 @@ inline constexpr const auto& columns_of<MaxwellBranch> = branch_fields;
 
 inline constexpr std::tuple servo_rows{
     FieldOf<ServoSettings>{{"rate", "1/T", "Hz",
-      {100, 1e5, false, false, "must be from 100 to 100000 Hz: below, forces step; above, no device follows"},
+      {100, 1e5, false, false, ": below, forces step; above, no device follows"},
       "Ticks per second.", in_unit("hz")}, &ServoSettings::rate},
-    FieldOf<ServoSettings>{{"low_pass", "", "Hz", {0, no_bound, false, true, "must be 0 (off) or more"},
+    FieldOf<ServoSettings>{{"low_pass", "", "Hz", {0, no_bound, false, true, "", "off"},
       "Cut-off of the conditioning low_pass; 0 is off.", in_unit("hz"), {}, "Low-pass"}, &ServoSettings::low_pass},
     FieldOf<ServoSettings, Solver>{{"solver", "", "", {},
       "exact solves K06 (21)-(23); paper takes one step towards it, K06 (33)."}, &ServoSettings::solver},
@@ -42,10 +42,10 @@ inline constexpr std::tuple servo_rows{
       "Filter of the positions: low_pass is K06's first-order filter; line_fit is for real devices, whose encoder "
       "steps would shake the force."}, &ServoSettings::conditioning},
     FieldOf<ServoSettings>{{"encoder_step", "", "m",
-      {0, 1e-3, false, false, "must be from 0 (an ideal sensor) to 0.001 m: no device counts coarser"},
+      {0, 1e-3, false, false, ": no device counts coarser", "an ideal sensor"},
       "Jump of the tip's measured position per encoder count, for line_fit; 0 is an ideal sensor.", in_unit("mm")},
       &ServoSettings::encoder_step},
-    FieldOf<ServoSettings>{{"sub_steps", "", "-", {1, 16, false, false, "must be a whole number from 1 to 16"},
+    FieldOf<ServoSettings>{{"sub_steps", "", "-", {1, 16, false, false, ", a whole number"},
       "Steps of the model in each tick. More steps find the time of a pop better and cost more.", {}, {},
       "Sub-steps"}, &ServoSettings::sub_steps},
 };
@@ -53,13 +53,13 @@ inline constexpr auto servo_fields = numbers_of(servo_rows);
 
 inline constexpr FieldOf<DisplaySettings> display_fields[] = {
     {{"force_scale", "", "-",
-      {0, 1, true, false, "must be greater than 0 and at most 1: a device must not give more than the model's force"},
+      {0, 1, true, false, ": a device must not give more than the model's force"},
       "How much of the model's force the device gives. automatic: as much as it can give for any time, and at most "
       "all."}, &DisplaySettings::force_scale},
 };
 
 inline constexpr FieldOf<Coupling> thumb_fields[] = {
-    {{"thumb_stiffness", "K", "N/m", {0, no_bound, true, true, "must be greater than 0: the plunger hangs on it"},
+    {{"thumb_stiffness", "K", "N/m", {0, no_bound, true, true, ": the plunger hangs on it"},
       "Spring of the virtual coupling between thumb and plunger.", in_unit("N_per_mm"), {5, 1e5}},
       &Coupling::stiffness},
     {{"thumb_damping", "B", "N s/m", at_least_0,

@@ -60,16 +60,15 @@ inline constexpr FieldOf<Syringe> syringe_fields[] = {
     {{"friction", "F", "N", at_least_0,
       "Dry friction of the plunger.", in_unit("N"), {1e-3, 100}}, &Syringe::friction},
     {{"compliance", "C", "m^3/Pa",
-      {0, no_bound, true, true, "must be greater than 0: a rigid barrel has no single pressure"},
+      {0, no_bound, true, true, ": a rigid barrel has no single pressure"},
       "By how much pressure widens barrel and seal.", in_unit("mL_per_kPa"), {1e-15, 2e-10}}, &Syringe::compliance},
     {{"resistance", "R_c", "Pa s/m^3", greater_than_0,
       "Flow resistance of the cannula for the liquid.", in_unit("kPa_s_per_mL"), {1e7, 1e13}}, &Syringe::resistance},
 };
 // clang-format on
 
-inline constexpr Range resistance_range = {0, no_bound, false, true, "must be 0 (open) or more"};
-inline constexpr Range pressure_range = {-atmosphere, no_bound, true, true,
-                                         "must be greater than -101325 Pa: there is no lower pressure than none"};
+inline constexpr Range resistance_range = {0, no_bound, false, true, "", "open"};
+inline constexpr Range pressure_range = {-atmosphere, no_bound, true, true, ": there is no lower pressure than none"};
 inline constexpr FieldOf<Outlet> outlet_fields[] = {
     {{"resistance", "R_t", "Pa s/m^3", resistance_range, "For the liquid; 0 in open air."}, &Outlet::resistance},
     {{"pressure", "P_t", "Pa", pressure_range, "Above that of the atmosphere."}, &Outlet::pressure},

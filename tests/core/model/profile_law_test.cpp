@@ -170,7 +170,7 @@ TEST_CASE("everything that is no profile is told") {
   CHECK(profile_problems({{0, 0, 0}, {0, -1, 1}}).at(0).reason == "must be greater than the depth of the first knot");
   CHECK(profile_problems({{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}).at(0).path == "profile[2].depth");
   CHECK(profile_problems({{0, 0, 0}, {1, -1, 0}, {1, 0, 0}, {1, 0, 0}}).at(0).path == "profile[3].depth");
-  CHECK(profile_problems({{0, 1, 2}}).at(0).reason == "must be 0 N or less: the lower edge resists insertion");
+  CHECK(profile_problems({{0, 1, 2}}).at(0).reason == "must be from -1e+06 to 0 N: the lower edge resists insertion");
   CHECK(profile_problems({{0, -1, -2}}).at(0).reason == "must not be greater than upper at the same knot");
   CHECK(profile_problems({{0, -1, std::numeric_limits<double>::quiet_NaN()}}).at(0).path == "profile[0].upper");
 }

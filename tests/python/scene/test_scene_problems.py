@@ -38,7 +38,7 @@ ONE_PROBLEM = {
     ),
     "an angle beyond its bound, in the file's unit": (
         ("tip_angle_rad = 0.28", "tip_angle_deg = 95.5"),
-        "needle.tip_angle_deg = 95.5: must be between 0 and pi/2: a blunt needle does not enter, K06 (7) "
+        "needle.tip_angle_deg = 95.5: must be between 0 and pi/2 rad: a blunt needle does not enter, K06 (7) "
         "(less than 90 deg)",
     ),
     "a rate out of bounds": (
@@ -93,7 +93,7 @@ ONE_PROBLEM = {
     ),
     "half a step in a tick": (
         ("[coupling]", "[servo]\nsub_steps = 1.5\n[coupling]"),
-        "servo.sub_steps = 1.5: must be a whole number",
+        "servo.sub_steps = 1.5: must be from 1 to 16, a whole number",
     ),
     "a branch without its time": (
         ("damping_Ns_per_mm = 0.001", "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [0.1]"),
@@ -106,8 +106,8 @@ ONE_PROBLEM = {
             "damping_Ns_per_mm = 0.001\nrelaxation_stiffness_N_per_mm = [0.1, 0.2]\n"
             "relaxation_time_constant_s = [1, 0]",
         ),
-        "coupling.relaxation_time_constant_s[1] = 0: must be from 0.0001 s, less than a tick, to 10000 s, longer "
-        "than a run",
+        "coupling.relaxation_time_constant_s[1] = 0: must be from 0.0001 to 10000 s: from less than a "
+        "tick to longer than a run",
     ),
     "three branches": (
         (
@@ -122,7 +122,7 @@ ONE_PROBLEM = {
             "thickness_mm = 1.0",
             "thickness_mm = 1.0\nprofile_depth_mm = [0, 1]\nprofile_lower_N = [0, 0.5]\nprofile_upper_N = [0, 1]",
         ),
-        "membrane[0].profile_lower_N[1] = 0.5: must be 0 N or less: the lower edge resists insertion",
+        "membrane[0].profile_lower_N[1] = 0.5: must be from -1e+06 to 0 N: the lower edge resists insertion",
     ),
     "a grip of words": (
         ("thickness_mm = 1.0", 'thickness_mm = 1.0\ngrip = "table"\ngrip_opening_mm = ["wide"]'),

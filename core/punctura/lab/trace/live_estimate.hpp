@@ -39,7 +39,7 @@ inline constexpr FieldOf<LiveSettings> live_fields[] = {
     {{"noise", "", "N", greater_than_0,
       "Smallest standard deviation of the force from tick to tick."}, &LiveSettings::noise},
     {{"least_drop", "", "N", greater_than_0, "Smallest drop of a puncture."}, &LiveSettings::least_drop},
-    {{"least_share", "", "-", {0, 1, false, true, "must be at least 0 and less than 1"},
+    {{"least_share", "", "-", {0, 1, false, true},
       "Smallest drop as a share of the force before it."}, &LiveSettings::least_share},
     {{"least_speed", "", "m/s", greater_than_0, "Slower needles make no puncture."}, &LiveSettings::least_speed},
     {{"unloading", "", "N/m", at_least_0,
