@@ -46,11 +46,11 @@ punctura_status punctura_proxy3d_new(const punctura_scene* scene, int32_t membra
 }
 
 double punctura_proxy1d_step(punctura_proxy1d* proxy, double depth) {
-  return proxy ? proxy->stepping().step(depth) : punctura::nothing;
+  return proxy ? proxy->stepping().step(depth) : punctura::not_given;
 }
 
 double punctura_proxy1d_peek(punctura_proxy1d* proxy, double depth) {
-  return proxy ? proxy->peeking().step(depth) : punctura::nothing;
+  return proxy ? proxy->peeking().step(depth) : punctura::not_given;
 }
 
 punctura_status punctura_proxy1d_membrane(const punctura_proxy1d* proxy, punctura_membrane_tick* tick) {

@@ -110,7 +110,7 @@ inline punctura_status give_force(const Vector3d& from, double to[3]) noexcept {
 }
 
 inline punctura_status no_force(double force[3], punctura_status status = PUNCTURA_BAD_ARGUMENT) noexcept {
-  if (force) force[0] = force[1] = force[2] = nothing;
+  if (force) force[0] = force[1] = force[2] = not_given;
   return status;
 }
 

@@ -83,7 +83,7 @@ void bind_runtime(nb::module_& m) {
   def_repr(device, "<{0.__class__.__name__} {0.info.model!r} at {0.info.rate:g} Hz>");
   device.def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_rw(
-          "spent", &kept_spent, [](Device& d, double spent) { keep_spent(d, spent, unknown); },
+          "spent", &kept_spent, [](Device& d, double spent) { keep_spent(d, spent, not_given); },
           "Motor load at the end of the last run that the motors have not recovered from, N^2 s.\n\n"
           "The next run starts with it, so that the limit on continuous force holds across runs. A value that is\n"
           "set counts in full: the time before the next run does not count as rest.")

@@ -1,4 +1,4 @@
-// The interface between the servo loop and a haptic device: like AnyStep, a class with virtual functions.
+// The interface of a haptic device: a class with virtual functions, one for each kind of device.
 #pragma once
 
 #include <array>
@@ -8,22 +8,21 @@
 #include <vector>
 
 #include "punctura/device/sample.hpp"
+#include "punctura/model/field.hpp"
 #include "punctura/model/vector3.hpp"
 
 namespace punctura {
-
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The properties of a device, as it reports them. A number is NaN if the device does not report it.
 struct DeviceInfo {
   std::string backend, model, serial;
   bool has_orientation = false;
   unsigned button_count = 0;
-  double max_force = unknown;         ///< N, for a short time
-  double continuous_force = unknown;  ///< N, for any time
-  double max_stiffness = unknown;     ///< N/m
-  double encoder_step = unknown;      ///< m
-  double rate = unknown;              ///< Hz, ticks per second, measured or set when the device was opened
+  double max_force = not_given;         ///< N, for a short time
+  double continuous_force = not_given;  ///< N, for any time
+  double max_stiffness = not_given;     ///< N/m
+  double encoder_step = not_given;      ///< m
+  double rate = not_given;              ///< Hz, ticks per second, measured or set when the device was opened
 };
 
 /// The longest times without a tick, s, before a loop ends the run: until then the device holds its last force.
@@ -43,8 +42,8 @@ class DeviceError : public std::runtime_error {
 
 /// How much force the motors of a device have given recently. It outlasts a run, because the motors stay warm.
 struct MotorUse {
-  double spent = 0;       ///< N^2 s, see ForceBudget::spent
-  double time = unknown;  ///< s, when the loop stopped, on its clock; NaN: no time counts as rest
+  double spent = 0;         ///< N^2 s, see ForceBudget::spent
+  double time = not_given;  ///< s, when the loop stopped, on its clock; NaN: no time counts as rest
 };
 
 /// The callback of a device. The device calls it once per reading. It returns the force for the device, N.

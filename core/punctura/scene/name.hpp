@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,7 +47,7 @@ inline bool check_name(std::string_view name, const std::string& path, std::vect
            size > longest_name)
     reason = "must have at most " + std::to_string(longest_name) + " characters; it has " + std::to_string(size);
   if (reason.empty()) return true;
-  problems.push_back({path, std::numeric_limits<double>::quiet_NaN(), reason});
+  problems.push_back({path, not_given, reason});
   return false;
 }
 

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <string_view>
 #include <type_traits>
 
 #include "punctura/device/sample.hpp"
+#include "punctura/model/field.hpp"
 #include "punctura/proxy/in_space.hpp"
 #include "punctura/proxy/on_a_line.hpp"
 #include "punctura/proxy/solver.hpp"
@@ -24,10 +25,13 @@ enum class ServoState : std::uint8_t {
   active,    ///< the device gets force, with a ramp at the start
   faulted,   ///< a fault is latched, and the force is zero
 };
+template <>
+inline constexpr std::array<std::string_view, 4> words_of<ServoState>{"disarmed", "waiting", "active", "faulted"};
 
 /// The commands to the step since the previous tick, as bits. A replay needs them and the samples.
 enum Command : std::uint32_t { command_arm = 1, command_disarm = 2, command_reset = 4, command_scene = 8 };
 
+/// What a tick did in one membrane.
 struct MembraneRecord {
   double depth;                     ///< m, see SpaceTick::depth
   double axial_force;               ///< N, along b
@@ -44,9 +48,9 @@ struct SyringeRecord {
   double pressure;  ///< in the syringe, above that of the atmosphere, Pa
   double left;      ///< volume that left through the needle so far, m^3
 };
-inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-inline constexpr SyringeRecord no_syringe{nothing, nothing, nothing, nothing};
+inline constexpr SyringeRecord no_syringe{not_given, not_given, not_given, not_given};
 
+/// All of a tick: the reading, the force before and after the limits, and each membrane.
 struct Snapshot {
   std::uint64_t tick;
   DeviceSample sample;

@@ -19,7 +19,7 @@ std::vector<double> obliquities(const Scene& scene, const Vector3d& axis, const 
   std::vector<double> angles(scene.membranes.size());
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const bool inside = now && i < now->membrane_count && now->membranes[i].phase != Phase::outside;
-    const Vector3d entered = inside ? to_vector(now->membranes[i].direction) : Vector3d::Constant(nothing);
+    const Vector3d entered = inside ? to_vector(now->membranes[i].direction) : Vector3d::Constant(not_given);
     angles[i] = drawn_obliquity(scene, scene.membranes[i], axis, entered);
   }
   return angles;
@@ -116,7 +116,7 @@ const std::vector<std::byte>& LiveRun::advance(std::size_t count) {
     target_.move_to(pose_.position);
     const Desired desired = target_.at(time);
     DeviceSample sample = reading();
-    if (std::exchange(trips_, false)) sample.position[0] = nothing;
+    if (std::exchange(trips_, false)) sample.position[0] = not_given;
     plant_.step(tick(sample), desired);
   }
   return frame(count);

@@ -91,7 +91,7 @@ class LiveRun {
   Plant plant_;
   std::uint64_t ticks_ = 0;
   bool trips_ = false;
-  double thumb_ = 0, wanted_thumb_ = nothing;  ///< m; N, NaN before the first push
+  double thumb_ = 0, wanted_thumb_ = not_given;  ///< m; N, NaN before the first push
 
   EventFinder finder_;
   std::optional<OtherSolver> other_;

@@ -14,22 +14,22 @@ namespace punctura::batch {
 
 /// The numbers of a run, SI. NaN where there is none.
 struct RunNumbers {
-  double peak = nothing;       ///< largest force of the model against the hand, N
-  double felt_peak = nothing;  ///< largest force of the device against the hand, N; NaN without a device
-  double depth = nothing;      ///< deepest place of the tip below the first surface, m
-  double work = 0;             ///< of the hand against the model's force, first touch to the deepest place, J
-  double dwell = 0;            ///< time in which the tip is inside a membrane, s
-  double limited = 0;          ///< share of the ticks in which a limit made the device's force smaller
-  Fault fault = Fault::none;   ///< that stopped the force
-  bool in_lanes = false;       ///< computed in SIMD lanes; otherwise one number at a time
+  double peak = not_given;       ///< largest force of the model against the hand, N
+  double felt_peak = not_given;  ///< largest force of the device against the hand, N; NaN without a device
+  double depth = not_given;      ///< deepest place of the tip below the first surface, m
+  double work = 0;               ///< of the hand against the model's force, first touch to the deepest place, J
+  double dwell = 0;              ///< time in which the tip is inside a membrane, s
+  double limited = 0;            ///< share of the ticks in which a limit made the device's force smaller
+  Fault fault = Fault::none;     ///< that stopped the force
+  bool in_lanes = false;         ///< computed in SIMD lanes; otherwise one number at a time
 };
 
 /// The numbers of a membrane in a run, SI. NaN without a pop.
 struct MembraneNumbers {
   std::uint32_t pops = 0;
-  double first_pop = nothing;  ///< time of the first pop, s
-  double drop = nothing;       ///< largest drop of the model's resistance at a pop, N
-  double overshoot = nothing;  ///< farthest the bevel ran on past the membrane after a pop, m
+  double first_pop = not_given;  ///< time of the first pop, s
+  double drop = not_given;       ///< largest drop of the model's resistance at a pop, N
+  double overshoot = not_given;  ///< farthest the bevel ran on past the membrane after a pop, m
 };
 
 /// What a summary reads of a tick.
@@ -46,7 +46,7 @@ struct RunTick {
 template <typename Scalar>
 struct MembraneSummary {
   BasicContact<Scalar> contact{};
-  Scalar pops{0}, first_pop{nothing}, drop{nothing}, overshoot{nothing};
+  Scalar pops{0}, first_pop{not_given}, drop{not_given}, overshoot{not_given};
   Scalar through{0}, until{-std::numeric_limits<double>::infinity()};  // m, s
 };
 
@@ -117,7 +117,7 @@ class BasicRunSummary {
   template <typename Pick>
   RunNumbers numbers(double ticks, double period, Pick&& pick) const noexcept {
     RunNumbers n;
-    const auto found = [&](const Scalar& most) { return pick(most) == -infinity ? nothing : pick(most); };
+    const auto found = [&](const Scalar& most) { return pick(most) == -infinity ? not_given : pick(most); };
     const auto root = [](double square) { return std::copysign(std::sqrt(std::abs(square)), square); };
     n.peak = root(found(peak_));
     n.felt_peak = root(found(felt_peak_));

@@ -41,7 +41,7 @@ struct SceneBatch {
   DeviceDynamics plant{};
   Hand hand{};
   std::vector<std::uint64_t> seeds{};  ///< one for each trial, with a simulated device
-  double duration = nothing;           ///< s, with a simulated device; NaN: as long as the motion lasts
+  double duration = not_given;         ///< s, with a simulated device; NaN: as long as the motion lasts
 };
 
 /// The results: one element for each trial, and for each membrane of each trial.

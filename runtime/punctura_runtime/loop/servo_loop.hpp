@@ -160,8 +160,8 @@ class ServoLoop {
   std::atomic<bool> over_{false};
   std::atomic<double> silent_s_{0}, thumb_silent_s_{0};  ///< what ended the run; 0: it did not
   std::atomic<std::uint32_t> asked_{0};
-  std::atomic<double> wanted_thumb_{unknown};  ///< N; NaN: no simulated thumb
-  std::atomic<bool> frozen_{false};            ///< a fault is latched: history_ is no longer written
+  std::atomic<double> wanted_thumb_{not_given};  ///< N; NaN: no simulated thumb
+  std::atomic<bool> frozen_{false};              ///< a fault is latched: history_ is no longer written
   std::atomic<std::uint64_t> ticks_{0}, late_{0};
   Handover<AnyStep> handover_;
   TripleBuffer<Snapshot> latest_;

@@ -67,9 +67,9 @@ bool ThumbLoop::recent(const std::atomic<std::int64_t>& last) const noexcept {
 double ThumbLoop::depth() const noexcept {
   if (resets_.load(std::memory_order_acquire) !=
       resets_done_.load(std::memory_order_acquire))  // no tick since then: a driver may take a moment to its first one
-    return settings_.now_ns() - reset_at_.load(std::memory_order_relaxed) <= first_tick_ns ? 0 : nothing;
-  if (fault() != Fault::none) return nothing;
-  if (!recent(last_tick_)) return nothing;
+    return settings_.now_ns() - reset_at_.load(std::memory_order_relaxed) <= first_tick_ns ? 0 : not_given;
+  if (fault() != Fault::none) return not_given;
+  if (!recent(last_tick_)) return not_given;
   return depth_.load(std::memory_order_relaxed);
 }
 

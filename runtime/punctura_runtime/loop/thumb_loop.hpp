@@ -64,12 +64,11 @@ class ThumbLoop {
   std::atomic<bool> running_{false};
   static constexpr std::int64_t first_tick_ns = 1'000'000'000;
 
-  static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
   std::atomic<std::uint32_t> resets_{0}, resets_done_{0};  ///< counted, so that no reset is lost during a tick
   std::atomic<bool> active_{false};
   std::atomic<std::int64_t> reset_at_{0};  ///< ns
-  std::atomic<double> depth_{nothing}, plunger_force_{0}, felt_{0};
+  std::atomic<double> depth_{not_given}, plunger_force_{0}, felt_{0};
   std::atomic<Fault> fault_{Fault::none};
   std::atomic<std::int64_t> last_tick_{never}, last_given_{never};
   std::atomic<std::uint64_t> ticks_{0};

@@ -197,6 +197,6 @@ TEST_CASE("feeding allocates no memory") {
 
 TEST_CASE("an invalid rate is refused") {
   CHECK_THROWS_AS(FedDevice(at(0)), DeviceError);
-  CHECK_THROWS_AS(FedDevice(at(unknown)), DeviceError);
+  CHECK_THROWS_AS(FedDevice(at(not_given)), DeviceError);
   CHECK(FedDevice(at(500)).info().backend == "fed");
 }

@@ -138,7 +138,7 @@ TEST_CASE("a replay has the properties of the recorded device, but another name"
 }
 
 TEST_CASE("a recording without a rate is refused; a recording without ticks ends at once") {
-  CHECK_THROWS_AS(ReplayDevice({}, recorded(unknown)), DeviceError);
+  CHECK_THROWS_AS(ReplayDevice({}, recorded(not_given)), DeviceError);
   CHECK_THROWS_AS(ReplayDevice({}, recorded(0)), DeviceError);
   CHECK(
       snapshots(std::make_shared<ReplayDevice>(std::vector<DeviceSample>{}, recorded(), fast), paper_scene()).empty());

@@ -173,7 +173,7 @@ TEST_CASE("a run begins though nobody has noticed yet that the one before is ove
 
 TEST_CASE("a duration is a number of 0 or more") {
   WatchedRun w(fed_device(false));
-  for (const double wrong : {-1.0, unknown}) CHECK_THROWS_AS(w.loop.start(wrong), std::invalid_argument);
+  for (const double wrong : {-1.0, not_given}) CHECK_THROWS_AS(w.loop.start(wrong), std::invalid_argument);
   CHECK_FALSE(w.loop.running());
 }
 

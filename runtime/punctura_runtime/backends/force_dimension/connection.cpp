@@ -13,8 +13,8 @@ using State = BackendStatus::State;
 /// The maker's ratings of a family of devices, which the libraries do not give; NaN if not known. Continuous ratings
 /// are not published.
 struct Model {
-  double max_force = unknown;      ///< N
-  double max_stiffness = unknown;  ///< N/m
+  double max_force = not_given;      ///< N
+  double max_stiffness = not_given;  ///< N/m
   unsigned buttons = 1;
 };
 

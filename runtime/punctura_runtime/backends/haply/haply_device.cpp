@@ -54,7 +54,7 @@ double HaplyDevice::measured_rate() {
       throw DeviceError("The Inverse Service at " + url_.text() + ": while its rate was measured, " + describe(how));
   }
   passed = options_.now_ns() - begin;
-  return passed > 0 ? n * 1e9 / static_cast<double>(passed) : unknown;
+  return passed > 0 ? n * 1e9 / static_cast<double>(passed) : not_given;
 }
 
 void HaplyDevice::begin() {

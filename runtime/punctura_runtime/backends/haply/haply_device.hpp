@@ -61,7 +61,7 @@ class HaplyDevice : public PolledDevice {
   Url url_;
   Service service_;
   bool was_in_use_ = false;
-  double fastest_ = unknown;                     ///< round trips a second
+  double fastest_ = not_given;                   ///< round trips a second
   std::uint64_t gripless_ = 0;                   ///< answers in a row without a grip
   Tick::Force force_{};                          ///< of the last tick
   Trouble found_ = Trouble::none;                ///< by the ticking thread

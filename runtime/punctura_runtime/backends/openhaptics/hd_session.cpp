@@ -48,7 +48,7 @@ std::string text(const Interface& hd, Quantity which) {
 double number(const Interface& hd, Quantity which) {
   std::array<double, 16> answer{};  // large enough for any quantity, also a longer one than documented
   hd.get_doubles(which, answer.data());
-  return take_errors(hd).code == success && answer[0] > 0 ? answer[0] : unknown;
+  return take_errors(hd).code == success && answer[0] > 0 ? answer[0] : not_given;
 }
 
 }  // namespace

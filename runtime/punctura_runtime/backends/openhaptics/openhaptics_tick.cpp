@@ -100,7 +100,7 @@ bool Ticking::one_tick() noexcept {
 
 /// Reads into sample_. It keeps its old values if the library reports an error.
 ErrorInfo Ticking::read() noexcept {
-  std::array<double, 3> position{unknown, unknown, unknown};
+  std::array<double, 3> position{not_given, not_given, not_given};
   std::array<double, 16> transform{};
   std::array<double, 16> temperatures{};  // documented: six at most
   int buttons = 0;
