@@ -79,7 +79,7 @@ def columns(field: TickField) -> str:
 
 def page() -> str:
     fields = FIELDS.values()
-    rows = [f"| `{f.name}` | {shape(f)} | {columns(f)} | {f.unit} | {f.says} |" for f in fields]
+    rows = [f"| `{f.name}` | {shape(f)} | {columns(f)} | {f.unit} | {f.help} |" for f in fields]
     words = [f"| `{f.name}` | {', '.join(f.words)} |" for f in fields if f.words]
     return PAGE.format(rows="\n".join(rows), words="\n".join(words))
 

@@ -5,6 +5,7 @@
 #include "punctura/scene/passivity.hpp"
 #include "punctura/servo/snapshot.hpp"
 #include "struct.hpp"
+#include "value.hpp"
 
 namespace punctura::bindings {
 namespace {
@@ -25,31 +26,16 @@ constexpr std::tuple device_rows{
 }  // namespace
 
 void bind_limits(nb::module_& m) {
-  nb::enum_<Fault>(m, "Fault", nb::is_arithmetic(), "The reason why a tick gave no force.")
-      .value("none", Fault::none)
-      .value("non_finite_input", Fault::non_finite_input)
-      .value("bad_axis", Fault::bad_axis)
-      .value("position_jump", Fault::position_jump)
-      .value("stale_sample", Fault::stale_sample)
-      .value("missed_deadline", Fault::missed_deadline)
-      .value("clock", Fault::clock)
-      .value("non_finite_force", Fault::non_finite_force)
-      .value("device", Fault::device)
-      .value("thumb", Fault::thumb);
+  def_words<Fault>(m, "Fault", "The reason why a tick gave no force.");
   m.def("describe", &describe, nb::arg("fault"), "The meaning of a fault, and the remedy.");
 
-  nb::enum_<ServoState>(m, "ServoState", nb::is_arithmetic(), "Whether the device gets force.")
-      .value("disarmed", ServoState::disarmed, "The model runs, the device gets no force.")
-      .value("waiting", ServoState::waiting, "Armed, but the tip is in tissue or no dead-man button is held. No force.")
-      .value("active", ServoState::active, "The device gets force, ramped up after arming.")
-      .value("faulted", ServoState::faulted, "A fault is latched. The force is zero.");
-
-  nb::enum_<Limit>(m, "Limit", nb::is_arithmetic(), "The limit that reduced the force of a tick.")
-      .value("none", Limit::none, "The model's full force is sent.")
-      .value("ramp", Limit::ramp, "The force is still ramping up after arming.")
-      .value("peak", Limit::peak, "max_force.")
-      .value("continuous", Limit::continuous, "The budget of continuous_force is used up.")
-      .value("temperature", Limit::temperature, "The device reports warm motors.");
+  def_words<ServoState>(m, "ServoState", "Whether the device gets force.",
+                        {"The model runs, the device gets no force.",
+                         "Armed, but the tip is in tissue or no dead-man button is held. No force.",
+                         "The device gets force, ramped up after arming.", "A fault is latched. The force is zero."});
+  def_words<Limit>(m, "Limit", "The limit that reduced the force of a tick.",
+                   {"The model's full force is sent.", "The force is still ramping up after arming.", "max_force.",
+                    "The budget of continuous_force is used up.", "The device reports warm motors."});
 
   def_struct<gate_rows>(m, {"GateLimits", "Limits that a device reading must meet before the model uses it.", "gate"});
   def_struct<limit_fields>(m, {"ForceLimits", "Limits on the force sent to a device.", "limits"});

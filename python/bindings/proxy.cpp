@@ -133,13 +133,11 @@ LineProxy make_line(GivenLaw law, Coupling coupling, double period, const Word<S
 }  // namespace
 
 void bind_proxy(nb::module_& m) {
-  nb::enum_<Phase>(m, "Phase", nb::is_arithmetic(), "The state of the needle in one membrane.")
-      .value("outside", Phase::outside, "In front of the membrane. No force.")
-      .value("sticking", Phase::sticking, "The proxy rests. The force is inside the band.")
-      .value("sliding_in", Phase::sliding_in, "The force is on the lower edge.")
-      .value("sliding_out", Phase::sliding_out, "The force is on the upper edge.")
-      .value("barred", Phase::barred,
-             "Inside without having entered from the front. No force until the tip has been outside, in front.");
+  def_words<Phase>(
+      m, "Phase", "The state of the needle in one membrane.",
+      {"In front of the membrane. No force.", "The proxy rests. The force is inside the band.",
+       "The force is on the lower edge.", "The force is on the upper edge.",
+       "Inside without having entered from the front. No force until the tip has been outside, in front."});
 
   def_struct<coupling_fields>(
       m, {"Coupling", "The virtual coupling: spring and damper between device and proxy. K06 (21)", "coupling"});

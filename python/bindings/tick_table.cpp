@@ -107,7 +107,7 @@ TicksObject TickColumns::to_ticks(std::size_t components, bool single) {
 namespace {
 
 struct Field {
-  std::string name, column, unit, says, dtype;
+  std::string name, column, unit, help, dtype;
   std::size_t width;
   bool per_membrane, input, on_page;
   std::optional<std::vector<std::string>> words;
@@ -116,7 +116,7 @@ struct Field {
   std::string doc() const {
     const std::string shape =
         std::string("(n,") + (per_membrane ? " m" : "") + (width == 3 ? (per_membrane ? ", 3)" : " 3)") : ")");
-    return shape + (unit.empty() ? "" : ", " + unit) + ". " + says;
+    return shape + (unit.empty() ? "" : ", " + unit) + ". " + help;
   }
   std::string signature() const {
     const std::string type = dtype == "bool" ? "bool_" : dtype;
@@ -128,7 +128,7 @@ constexpr std::tuple field_rows{
     row("name", &Field::name, "Name of the attribute of Ticks."),
     row("column", &Field::column, "Column name in a file: {a} is x, y or z, {i} the membrane's number."),
     row("unit", &Field::unit, "Unit; empty for numbers without one."),
-    row("says", &Field::says, "Description."),
+    row("help", &Field::help, "What it is."),
     row("dtype", &Field::dtype, "NumPy name of the type."),
     row("width", &Field::width, "Number of components: 1, or 3 for a vector."),
     row("per_membrane", &Field::per_membrane, "Whether each membrane has its own value."),
@@ -137,16 +137,13 @@ constexpr std::tuple field_rows{
     row("words", &Field::words, "The words for its codes; None for plain numbers."),
 };
 
-/// The names of an enumeration's values, by number; None for plain numbers.
+/// The words of an enumeration's values, by number; None for plain numbers.
 template <typename Value>
-std::optional<std::vector<std::string>> words_of() {
-  if constexpr (std::is_enum_v<Value>) {
-    std::vector<std::string> words;
-    for (const nb::handle member : nb::type<Value>()) words.push_back(nb::cast<std::string>(member.attr("name")));
-    return words;
-  } else {
+std::optional<std::vector<std::string>> words_for() {
+  if constexpr (std::is_enum_v<Value>)
+    return std::vector<std::string>(words_of<Value>.begin(), words_of<Value>.end());
+  else
     return std::nullopt;
-  }
 }
 
 std::vector<Field> fields() {
@@ -155,8 +152,8 @@ std::vector<Field> fields() {
     using Store = FieldStore<decltype(field)>;
     using Value = typename Store::Value;
     using Number = std::conditional_t<std::is_same_v<Value, bool>, bool, typename Store::Type>;
-    all.push_back({field.name, field.column, field.unit, field.says, dtype_name<Number>(), Store::width,
-                   field.per_membrane, (field.use & use_input) != 0, (field.use & use_page) != 0, words_of<Value>()});
+    all.push_back({field.name, field.column, field.unit, field.help, dtype_name<Number>(), Store::width,
+                   field.per_membrane, (field.use & use_input) != 0, (field.use & use_page) != 0, words_for<Value>()});
   });
   return all;
 }

@@ -1,6 +1,7 @@
 // Words and other immutable values in Python.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -122,6 +123,15 @@ void def_value(nb::class_<T>& cls, const std::vector<const char*>& fields) {
 template <typename Entry>
 nb::typed<nb::tuple, Entry, nb::ellipsis> shown_tuple(const std::vector<Entry>& entries) {
   return nb::tuple(nb::cast(entries));
+}
+
+/// Defines an enumeration with the words of the core. help: of each, in their order.
+template <typename Enum>
+void def_words(nb::module_& m, const char* name, const char* what,
+               const std::array<const char*, words_of<Enum>.size()>& help = {}) {
+  nb::enum_<Enum> made(m, name, nb::is_arithmetic(), what);
+  for (std::size_t i = 0; i < help.size(); ++i)
+    made.value(words_of<Enum>[i].data(), static_cast<Enum>(i), help[i]);  // each word is a literal, which ends with 0
 }
 
 }  // namespace punctura::bindings

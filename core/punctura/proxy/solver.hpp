@@ -25,6 +25,9 @@ enum class Phase : std::uint8_t {
   sliding_out,  ///< the proxy moves out: the force is on the upper edge
   barred,       ///< inside without a valid entry: no force until the tip has been outside, in front
 };
+template <>
+inline constexpr std::array<std::string_view, 5> words_of<Phase>{"outside", "sticking", "sliding_in", "sliding_out",
+                                                                 "barred"};
 
 /// Whether friction acts in this phase.
 constexpr bool inside(Phase phase) noexcept { return phase != Phase::outside && phase != Phase::barred; }

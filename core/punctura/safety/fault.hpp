@@ -1,7 +1,11 @@
 // The faults: why a tick gave no force.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
+
+#include "punctura/model/field.hpp"
 
 namespace punctura {
 
@@ -18,6 +22,10 @@ enum class Fault : std::uint8_t {
   device,            ///< the back-end reported a fault
   thumb,             ///< the device under the thumb has a fault or is silent
 };
+template <>
+inline constexpr std::array<std::string_view, 10> words_of<Fault>{
+    "none",  "non_finite_input", "bad_axis", "position_jump", "stale_sample", "missed_deadline",
+    "clock", "non_finite_force", "device",   "thumb"};
 
 /// The meaning of a fault, and what to do. The text is constant, because a tick formats nothing.
 constexpr const char* describe(Fault fault) noexcept {
@@ -40,7 +48,7 @@ constexpr const char* describe(Fault fault) noexcept {
     case Fault::non_finite_force:
       return "the model gave a force or a band that is not a number: "
              "correct the law if it is your own; otherwise please report the scene and the recording";
-    case Fault::device: return "the device reported a fault of its own";
+    case Fault::device: return "the device reported a fault of its own: check its cable and its power, then reset";
     case Fault::thumb:
       return "the device under the thumb has a fault of its own or sends nothing: check its connection, then reset";
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 
 #include "punctura/model/omni.hpp"
@@ -14,6 +16,7 @@
 
 namespace punctura {
 
+/// The limits on the force that a device gets. check(gate, limits) finds values that would disable safety.
 struct ForceLimits {
   double max_force = Omni::max_force;                ///< N, norm
   double continuous_force = Omni::continuous_force;  ///< N rms in any interval of continuous_time
@@ -37,6 +40,8 @@ enum class Limit : std::uint8_t {
   continuous,   ///< continuous_force: the budget lowers the ceiling
   temperature,  ///< the device reports warm motors
 };
+template <>
+inline constexpr std::array<std::string_view, 5> words_of<Limit>{"none", "ramp", "peak", "continuous", "temperature"};
 
 /// How often each limit has acted, in ticks.
 struct LimitCounters {

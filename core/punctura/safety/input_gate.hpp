@@ -13,6 +13,7 @@
 
 namespace punctura {
 
+/// What a reading must fulfil, and when it must come. Beyond it the run has a fault.
 struct GateLimits {
   double max_speed = 8;          ///< m/s from one reading to the next; at 1600 Hz this is 5 mm
   double stale = 0.015;          ///< longest time without a new reading, s

@@ -49,6 +49,7 @@ inline constexpr std::array<std::string_view, 6> words_of<Behind>{"tissue", "blo
 /// The outlet of tissue that takes no liquid: 1 mL leaves in a day at 10 kPa. Illustrative.
 inline constexpr Outlet dense_tissue{1e15, 0};
 
+/// A membrane at its place in the scene, with what is drawn and what liquid meets there.
 struct PlacedMembrane {
   std::string name;
   Membrane membrane{};
@@ -67,6 +68,7 @@ struct SyringeSettings {
   Coupling thumb{2000, 2};
 };
 
+/// How a run computes: ticks, filter, solver.
 struct ServoSettings {
   double rate = usual_rate;  ///< 1/T, Hz
   double low_pass = 300;     ///< cutoff for Conditioning::low_pass, Hz; 0 is off. K06 section 4

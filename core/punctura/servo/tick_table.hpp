@@ -28,16 +28,16 @@ struct TickField {
   const char* column;
   const char* unit;  ///< empty for numbers without a unit
   unsigned use;
-  const char* says;
+  const char* help;
   Get get;
 };
 
 /// The field that is this member of a record, or a member of this member.
 template <typename Record, typename Member, typename... Inner>
-constexpr auto tick_field(const char* name, const char* column, const char* unit, unsigned use, const char* says,
+constexpr auto tick_field(const char* name, const char* column, const char* unit, unsigned use, const char* help,
                           Member Record::* member, Inner... inner) {
   auto get = [=](auto& record) -> auto& { return ((record.*member).*....*inner); };
-  return TickField<Record, decltype(get)>{name, column, unit, use, says, get};
+  return TickField<Record, decltype(get)>{name, column, unit, use, help, get};
 }
 
 // clang-format off

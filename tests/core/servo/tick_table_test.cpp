@@ -17,7 +17,7 @@ TEST_CASE("every field has a name and a column of its own, a description, and th
     CAPTURE(field.name);
     CHECK(names.insert(field.name).second);
     CHECK(columns.insert(field.column).second);
-    CHECK(std::string(field.says).size() > 5);
+    CHECK(std::string(field.help).size() > 5);
     using F = std::remove_cvref_t<decltype(field)>;
     const std::string column = field.column;
     const bool is_vector = std::is_same_v<typename F::Value, std::array<double, 3>>;

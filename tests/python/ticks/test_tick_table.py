@@ -28,7 +28,7 @@ def test_every_line_of_the_table_in_core_is_a_field_and_an_attribute():
     lines = re.findall(r'    tick_field\("(\w+)"', SOURCE)
     assert lines == list(FIELDS) and len(lines) > 25
     for name in lines:
-        assert FIELDS[name].says in getattr(TickArrays, name).__doc__
+        assert FIELDS[name].help in getattr(TickArrays, name).__doc__
 
 
 def test_a_recording_has_the_columns_of_the_table_and_two_more(recording):
@@ -54,5 +54,5 @@ def test_the_page_and_the_docs_have_the_table_as_it_is(capsys):
 
 
 def test_the_bit_of_a_new_scene_is_that_of_the_table():
-    bits = dict(re.findall(r"(\d+) (a new scene|\w+)", FIELDS["commands"].says))
+    bits = dict(re.findall(r"(\d+) (a new scene|\w+)", FIELDS["commands"].help))
     assert bits[str(COMMAND_SCENE)] == "a new scene"
