@@ -136,6 +136,16 @@ void bind_trace(nb::module_& m) {
       "coupling_names", [](nb::handle) { return names_of(trace_coupling_fields); },
       nb::sig("def coupling_names(cls, /) -> tuple[str, ...]"),
       "The parameters of the coupling, in the order of `coupling`.");
+  model.def_prop_ro_static(
+      "units",
+      [](nb::handle) {
+        nb::dict units;
+        const auto add = [&](const Field& field) { units[nb::str(field.name.data(), field.name.size())] = field.unit; };
+        for (const Field& field : trace_membrane_fields) add(field);
+        for (const Field& field : trace_coupling_fields) add(field);
+        return units;
+      },
+      nb::sig("def units(cls, /) -> dict[str, str]"), "The unit of each parameter, SI.");
 }
 
 }  // namespace punctura::bindings

@@ -18,12 +18,7 @@ COUPLING = TraceModel.coupling_names
 LATE = ("lag", "delay")  # s: of the force behind the depth
 NUISANCE = ("offset", "drift", *LATE)  # of the sensor
 LATEST = 0.2  # s, of a lag or a delay: what is slower is no sensor
-UNITS = {
-    "surface": "m", "stiffness": "N/m", "precompression": "N", "friction": "-", "thickness": "m", "tip_length": "m",
-    "growth": "1/m", "tail_length": "m", "tail_floor": "-", "cutting": "N", "set": "-", "coupling_stiffness": "N/m",
-    "coupling_damping": "N s/m", "relaxation_1_stiffness": "N/m", "relaxation_1_time": "s",
-    "relaxation_2_stiffness": "N/m", "relaxation_2_time": "s", "offset": "N", "drift": "N/s", "lag": "s", "delay": "s",
-}  # fmt: skip
+UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s"}
 _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",

@@ -20,6 +20,7 @@
 #include "punctura/model/tissue_law.hpp"
 #include "punctura/proxy/exact.hpp"
 #include "punctura/proxy/relaxing_coupling.hpp"
+#include "punctura/scene/fields.hpp"
 
 namespace punctura {
 
@@ -31,6 +32,10 @@ constexpr auto fields_of_a_membrane() {
             std::copy(std::begin(membrane_fields), std::end(membrane_fields), fields.begin() + 1));
   return fields;
 }
+constexpr Field field_as(std::string_view name, Field field) {
+  field.name = name;
+  return field;
+}
 
 }  // namespace detail
 
@@ -38,12 +43,13 @@ constexpr auto fields_of_a_membrane() {
 /// Tissue.
 inline constexpr auto trace_membrane_fields = detail::fields_of_a_membrane();
 /// The parameters of the coupling, which all membranes of a trace share, in this order.
-inline constexpr std::array<Field, 6> trace_coupling_fields{{{"coupling_stiffness", "K", "N/m", greater_than_0},
-                                                             {"coupling_damping", "B", "N s/m", at_least_0},
-                                                             {"relaxation_1_stiffness", "", "N/m", at_least_0},
-                                                             {"relaxation_1_time", "", "s", greater_than_0},
-                                                             {"relaxation_2_stiffness", "", "N/m", at_least_0},
-                                                             {"relaxation_2_time", "", "s", greater_than_0}}};
+inline constexpr std::array<Field, 6> trace_coupling_fields{
+    detail::field_as("coupling_stiffness", field_of(coupling_fields, &Coupling::stiffness)),
+    detail::field_as("coupling_damping", field_of(coupling_fields, &Coupling::damping)),
+    detail::field_as("relaxation_1_stiffness", field_of(branch_fields, &MaxwellBranch::stiffness)),
+    detail::field_as("relaxation_1_time", field_of(branch_fields, &MaxwellBranch::time_constant)),
+    detail::field_as("relaxation_2_stiffness", field_of(branch_fields, &MaxwellBranch::stiffness)),
+    detail::field_as("relaxation_2_time", field_of(branch_fields, &MaxwellBranch::time_constant))};
 
 using TraceMembrane = std::array<double, trace_membrane_fields.size()>;  ///< SI
 using TraceCoupling = std::array<double, trace_coupling_fields.size()>;  ///< SI
