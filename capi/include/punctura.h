@@ -119,7 +119,7 @@ PUNCTURA_API punctura_status punctura_scene_set_word(punctura_scene* scene, cons
 typedef struct punctura_field {
   size_t struct_size;
   char path[64];
-  char symbol[16]; /* in K06, "-" if it has none */
+  char symbol[16]; /* in K06; "" if it has none */
   char unit[16];
   double value, min, max;
   int32_t min_open, max_open; /* 1: the bound itself is not allowed */

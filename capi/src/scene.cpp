@@ -23,9 +23,15 @@ auto* number_at(SceneT& scene, std::string_view path) {
   return found;
 }
 
-punctura_status no_path(const char* path) {
+punctura_status no_path(Scene scene, const char* path) {
+  const bool has_syringe = scene.syringe.has_value();
+  if (!has_syringe) scene.syringe.emplace();
+  const ScenePlaces places(scene);
+  const std::string hint = did_you_mean(path, places.numbers());
   return fail(PUNCTURA_BAD_ARGUMENT,
-              "the scene has no number \"" + std::string(path) + "\"; punctura_scene_field() lists all of them");
+              "the scene has no number \"" + std::string(path) + "\"" +
+                  (!has_syringe && places.number(path) ? ": add the syringe first, with punctura_scene_add_syringe()"
+                                                       : hint + "; punctura_scene_field() lists all of them"));
 }
 
 }  // namespace
@@ -107,7 +113,7 @@ punctura_status punctura_scene_set(punctura_scene* scene, const char* path, doub
       scene->scene.display.automatic = false;
       number = &scene->scene.display.force_scale;
     }
-    if (!number) return no_path(path);
+    if (!number) return no_path(scene->scene, path);
     *number = value;
     return ok;
   });
@@ -116,7 +122,7 @@ punctura_status punctura_scene_set(punctura_scene* scene, const char* path, doub
 punctura_status punctura_scene_get(const punctura_scene* scene, const char* path, double* value) {
   return guarded({scene, path, value}, [&] {
     const double* number = number_at(scene->scene, path);
-    if (!number) return no_path(path);
+    if (!number) return no_path(scene->scene, path);
     *value = *number;
     return ok;
   });

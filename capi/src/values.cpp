@@ -43,7 +43,8 @@ void read_lines(std::string_view text, Scene& scene, std::vector<Problem>& probl
     double* const place = places.number(path);
     const std::optional<double> number = read_decimal(value);
     if (!place)
-      problems.push_back({where, not_given, "the scene has no number \"" + path + "\""});
+      problems.push_back(
+          {where, not_given, "the scene has no number \"" + path + "\"" + did_you_mean(path, places.numbers())});
     else if (!number)
       problems.push_back({where, not_given, "must be PATH = NUMBER or PATH = \"WORD\""});
     else

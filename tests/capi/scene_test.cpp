@@ -310,7 +310,7 @@ TEST_CASE("C ABI: a scene from lines is the scene from a file; wrong lines are n
   }
   punctura_scene* none = nullptr;
   CHECK(from_lines(lines + "membrane[0].frictoin = 1\n", &none) == PUNCTURA_BAD_SCENE);
-  CHECK(std::string(punctura_last_error()).find("frictoin") != std::string::npos);
+  CHECK(std::string(punctura_last_error()).find("frictoin\"; did you mean membrane[0].friction?") != std::string::npos);
   CHECK(from_lines(lines + "membrane[99999999999].friction = 1\nname\nx = 1e\n", &none) == PUNCTURA_BAD_SCENE);
   CHECK(punctura_problem_count() == 3);
   CHECK(from_lines("", &none) == PUNCTURA_BAD_SCENE);

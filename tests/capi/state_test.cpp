@@ -1,5 +1,6 @@
 // The C ABI: state as bytes, peek without commit, and wrong arguments.
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "c99.h"
@@ -102,4 +103,15 @@ TEST_CASE("C ABI: a caller with a longer struct gets what this library knows, an
   CHECK(longer.known.struct_size == sizeof longer);
   longer.known.struct_size = 8;
   CHECK(punctura_insertion_membrane(one.insertion.get(), 0, &longer.known) == PUNCTURA_BAD_ARGUMENT);
+}
+
+TEST_CASE("C ABI: a wrong path names the near one, and a number of the syringe asks for the syringe") {
+  const SceneHandle scene(c99_scene());
+  const auto says = [](punctura_status status, const char* words) {
+    return status != PUNCTURA_OK && std::string(punctura_last_error()).find(words) != std::string::npos;
+  };
+  CHECK(says(punctura_scene_set(scene.get(), "membrane[1].friction", 1), "did you mean membrane[0].friction?"));
+  CHECK(says(punctura_scene_set(scene.get(), "membrane[0].outflow_pressure", 1), "add the syringe first"));
+  CHECK(says(punctura_scene_set_word(scene.get(), "servo.solvr", "exact"), "did you mean servo.solver?"));
+  CHECK(!says(punctura_scene_set(scene.get(), "x", 1), "did you mean"));
 }

@@ -14,8 +14,8 @@
 
 #include "punctura/insertion/conditioned_proxies.hpp"
 #include "punctura/proxy/in_space.hpp"
-#include "punctura/rivals/elastic.hpp"
 #include "punctura/rivals/friction_alone.hpp"
+#include "punctura/rivals/puncturing.hpp"
 #include "punctura/scene/build.hpp"
 
 namespace punctura {
@@ -88,9 +88,9 @@ inline void check(const AnyRival& rival, const std::string& path, std::vector<Pr
   rival.visit([&](const auto& run) {
     for (const auto& number : run.rival.numbers())
       if (const double value = run.rival.*number.value; !(value >= number.low && value <= number.high))
-        problems.push_back({path + "." + number.name, value,
-                            "must be between " + decimal_text(number.low) + " and " + decimal_text(number.high) + " " +
-                                number.unit});
+        problems.push_back(
+            {path + "." + number.name, value,
+             "must be between " + decimal_text(number.low) + " and " + decimal_text(number.high) + " " + number.unit});
   });
 }
 

@@ -31,6 +31,20 @@ inline std::optional<std::size_t> index_after(std::string_view path, std::string
 }
 }  // namespace detail
 
+/// "; did you mean X?" with the key of `known` that begins and ends as a path does, in more than two thirds of its
+/// letters; otherwise empty.
+template <typename Known>
+std::string did_you_mean(std::string_view path, const Known& known) {
+  std::string_view nearest;
+  auto most = static_cast<std::ptrdiff_t>(path.size() * 2 / 3 + 1);
+  for (const auto& [key, value] : known) {
+    const auto begin = std::mismatch(path.begin(), path.end(), key.begin(), key.end()).first - path.begin(),
+               end = std::mismatch(path.rbegin(), path.rend(), key.rbegin(), key.rend()).first - path.rbegin();
+    if (begin + end >= most) most = begin + end + 1, nearest = key;
+  }
+  return nearest.empty() ? std::string() : "; did you mean " + std::string(nearest) + "?";
+}
+
 /// Gives a list of the scene, such as "membrane[0].profile", at least `count` rows. The numbers of new rows are not
 /// given. Returns false if there is no such list.
 inline bool make_rows(Scene& scene, std::string_view list, std::size_t count) {
@@ -94,7 +108,8 @@ class ScenePlaces {
   bool set(const std::string& path, std::string_view word, std::vector<Problem>& problems) const {
     if (!check_name(word, path, problems)) return false;
     const auto found = words_.find(path);
-    const std::string reason = found == words_.end() ? "there is no such word in the scene" : found->second(word);
+    const std::string reason =
+        found == words_.end() ? "there is no such word in the scene" + did_you_mean(path, words_) : found->second(word);
     if (!reason.empty()) problems.push_back({path, not_given, reason});
     return reason.empty();
   }

@@ -39,6 +39,8 @@ class StepMaker {
                                   "is the number of walls in the model; the scene must have as many membranes"});
             detail::check_model(model, problems);
             if (!problems.empty()) model.reset();
+            if (!model && problems.empty())
+              problems.push_back({"model", not_given, "is empty without a reason: add a Problem that says why"});
             return detail::step_of(scene, std::move(model), problems, gate, limits);
           }));
         }) {}
