@@ -27,6 +27,10 @@ ZOOMED = (720, 450)  # a laptop at a zoom of 200 %
 SCROLLS = 1080  # px: below this width the page scrolls
 TOUCHED = 1024  # px: up to this width, fingers are the usual pointer
 STILL_MS = 1500  # until plots and view are drawn
+RESTS = """() => {
+  const view = document.querySelector(".view canvas");
+  return !view || view.width > 1.9 * view.clientWidth;
+}"""  # drawn without a graphics card
 
 # name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, do.Act, tuple[int, int], str], ...] = (
@@ -80,6 +84,7 @@ def opened(
 
 def save(page: Page, path: Path) -> None:
     page.wait_for_timeout(STILL_MS)
+    page.wait_for_function(RESTS)
     size = page.viewport_size
     assert size
     scrolls = size["width"] < SCROLLS and not page.get_by_role("dialog").count()  # a dialog covers what it scrolls
