@@ -1,6 +1,6 @@
 """Measures how fast the 3-D view is drawn in Chromium without a graphics card.
 
-    python tools/view_rate.py [--scene epidural] [--seconds 30] [--size 1440x900] [--warm 22] [--page FOLDER]
+    python tools/view_rate.py [--scene epidural] [--seconds 30] [--size 1440x900] [--warm 22] [--page FOLDER] [--stage]
 
 The simulated hand goes in and out through all membranes without a rest: at rest the view draws only what fades, 4
 times a second. Prints the pictures per second of the view, of a plot and of the browser (medians of 2 s), the sharpness
@@ -82,6 +82,7 @@ def main() -> int:
     parser.add_argument("--size", default="1440x900")
     parser.add_argument("--warm", type=float, default=WARM_S, help="seconds before the measurement")
     parser.add_argument("--page", type=Path, help="folder of another build of the page")
+    parser.add_argument("--stage", action="store_true", help="the stage, and not the bench")
     arguments = parser.parse_args()
     width, height = (int(part) for part in arguments.size.split("x"))
     with (
@@ -92,7 +93,7 @@ def main() -> int:
         client.wait(lambda: client.of("scene"))
         with (
             Hand(client, load_scene(arguments.scene)),
-            WatchedPage(studio.url, width, height) as page,
+            WatchedPage(studio.url, width, height, bench=not arguments.stage) as page,
         ):
             measure(page, arguments.seconds, arguments.warm)
             errors = page.errors

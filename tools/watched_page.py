@@ -82,9 +82,8 @@ class WatchedPage:
         return used
 
     def text(self, selector: str) -> str:
-        """The text of an element of the page; empty if it is hidden."""
-        found = self._page.locator(selector)
-        return found.inner_text() if found.is_visible() else ""
+        """The text of an element of the page, which may be hidden."""
+        return self._page.locator(selector).text_content() or ""
 
     def heap_mb(self) -> float:
         self._tools.send("HeapProfiler.collectGarbage")
