@@ -144,7 +144,7 @@ def place_of(wanted: str | int, names: Sequence[str]) -> int | None:
 
 
 def _different(matches: Sequence[int], table: Mapping[str, Array]) -> list[int]:
-    """Without columns that never change or that repeat another one, also with the other sign or in another unit."""
+    """Without columns that never change or that repeat another one, also with another sign, zero or unit."""
     names = list(table)
     kept: dict[int, Array] = {}
     for i in matches if len(matches) > 1 else ():
@@ -152,6 +152,7 @@ def _different(matches: Sequence[int], table: Mapping[str, Array]) -> list[int]:
         unit = split_name(names[i])[1]
         values = values * UNITS.get(role_of(unit), {}).get(unit, 1.0)
         held = values[np.isfinite(values)]
+        values = values - (held[0] if len(held) else 0.0)
         alike = any(
             np.allclose(values, sign * other, rtol=1e-3, atol=1e-3 * float(np.ptp(held)), equal_nan=True)
             for other in kept.values() for sign in (1, -1) if len(held)

@@ -36,8 +36,9 @@ _SPELLINGS = {
     "lbf": "lb lbs pound pounds pound-force pounds-force 磅",
     "ozf": "oz ounce ounces ounce-force",
     "s": "sec secs second seconds sek sekunde sekunden seconde secondes seg segundo segundos secondo secondi 秒 초 с",
-    "ms": "msec msecs millisecond milliseconds millisekunden millisecondes milisegundos millisecondi 毫秒 ミリ秒",
-    "us": "usec usecs microsecond microseconds mikrosekunden 微秒",
+    "ms": "msec msecs millis millisecond milliseconds millisekunden millisecondes milisegundos millisecondi "
+          "毫秒 ミリ秒",
+    "us": "usec usecs micros microsecond microseconds mikrosekunden 微秒",
     "ns": "nsec nsecs nanosecond nanoseconds nanosekunden 纳秒",
     "min": "mins minute minutes minuten minuto minutos minuti 分 分钟",
     "h": "hr hrs hour hours stunden 小时",

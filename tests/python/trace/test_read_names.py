@@ -51,6 +51,7 @@ HEADS = {
     "capital between words": written("timeUs,depthMm,forceN", time="us", mark=","),
     "a balance and the time of a computer": written("Unix time (s),Depth (mm),Weight (g)", force="gf", mark=","),
     "units of one letter as names": written("s,mm,N", mark=","),
+    "units of an Arduino": written("millis,depth_mm,weight_g", force="gf", time="ms", mark=","),
     "units as names": written("sec,in,ozf", "in", "ozf", mark=","),
     "a name of somebody": written("run (s),tip went to (mil),felt (dyn)", "mil", "dyn", mark=","),
 }
@@ -105,6 +106,10 @@ def test_the_same_column_twice_is_no_doubt_and_an_axis_at_rest_is_no_force(tmp_p
         written("time_s,Extension (mm),Load (N),Compressive extension (mm)", order="tdfd", mark=",")
     )
     check(tmp_path / "a.csv")
+    rows = [f"{1e3 * t!r},{1.7e9 + t!r},{d * 1e3!r},{f!r},{d * 1e3 + 120!r}" for t, d, f in SAMPLES]
+    head = "Elapsed (ms),Timestamp (s),Travel (mm),Load (N),Crosshead (mm)"  # with other zeros
+    (tmp_path / "c.csv").write_text("\n".join([head, *rows]))
+    check(tmp_path / "c.csv")
     head = "%time,field.header.seq,field.wrench.force.x,field.wrench.force.y,field.wrench.force.z,depth"
     rows = [f"{1_700_000_000_000_000_000 + round(1e9 * t)},1,0.1,0.2,{f!r},{d!r}" for t, d, f in SAMPLES]
     (tmp_path / "b.csv").write_text("\n".join([head, *rows]))
