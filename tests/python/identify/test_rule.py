@@ -19,6 +19,8 @@ def test_the_smaller_model_wins_a_tie_and_a_larger_one_must_predict_what_it_did_
     one = candidate("K06", small, fit(Misfit(made, start), small.names, start))
     two = candidate("curved", large, fit(one.fit.misfit, large.names, large.start(one.fit.parameters, weak=True)))
     assert not rule.prefers(two, one) and rule.prefers(one, two)
+    before = one.fit.misfit.evaluations
+    assert rule.held_out_error(one) and one.fit.misfit.evaluations > before  # the folds count
     monkeypatch.setattr(Candidate, "worth", lambda self, effective: type("W", (), {"bic": -10.0 * len(self.fit.u)})())
     errors = {one: 1.0, two: 1.5}
     monkeypatch.setattr(Rule, "held_out_error", lambda self, c: errors[c])
