@@ -133,9 +133,9 @@ inline std::vector<Problem> check(const Scene& scene) {
         check_curve(scene.needle, placed.membrane, placed.tissue, path, problems)) {
       constexpr auto widest = grazing_cosine<double>;  // at this angle a band is the largest
       if (is_k06(placed.tissue))
-        check_law(ThickLaw(scene.needle, placed.membrane).pieces(widest), path, problems);
+        check_law(ThickLaw(scene.needle, placed.membrane).pieces(widest), path, problems, true);
       else
-        check_law(TissueLaw(scene.needle, placed.membrane, placed.tissue).pieces(widest), path, problems);
+        check_law(TissueLaw(scene.needle, placed.membrane, placed.tissue).pieces(widest), path, problems, true);
     }
     check_fields(outflow_fields, placed.outflow, path, problems);
     check_fields(outflow_behind_fields, placed.outflow_behind, path, problems);
