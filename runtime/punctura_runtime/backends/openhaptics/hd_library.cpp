@@ -78,7 +78,7 @@ std::vector<std::string> usual_places() {
 
 Loaded load(const std::string& named) {
   static std::mutex one_at_a_time;
-  static auto& known = *new std::map<std::string, Interface>;  // by path; outlives every device
+  static auto& libraries = *new std::map<std::string, Interface>;  // by path; outlives every device
   const std::lock_guard lock(one_at_a_time);
 
   Loaded loaded;
@@ -94,7 +94,7 @@ Loaded load(const std::string& named) {
        "Install OpenHaptics 3.4 or later for 64-bit systems"},
       named, symbols(hd));
   if (loaded.state == BackendStatus::State::available)
-    loaded.functions = &known.try_emplace(loaded.path, hd).first->second;
+    loaded.functions = &libraries.try_emplace(loaded.path, hd).first->second;
   return loaded;
 }
 
