@@ -3,6 +3,8 @@
 import importlib
 import re
 import sys
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from punctura._core import PuncturaError
@@ -28,13 +30,22 @@ def optional(package: str, extra: str, user: str) -> Any:
 def missing(package: str, extra: str, user: str) -> MissingPackageError:
     """The error for a package that is not there, or not in the right version.
 
-    It tells pip the packages, not punctura[extra]: no index has punctura, and its source would be compiled again.
+    It names the packages, not punctura[extra]: no index has punctura, and its source would be compiled again.
     """
     name = package.partition(".")[0]
-    command = [sys.executable, "-m", "pip", "install", *(requirements(extra) or [name])]
+    command = [*_installer(), *(requirements(extra) or [name])]
     quoted = " ".join(part if re.fullmatch(r"[\w./:\\-]+", part) else f'"{part}"' for part in command)
     text = f"{user} needs the package {name}, of the extra {extra!r}. Install it: {quoted}"
     return MissingPackageError(text, name=name)
+
+
+def _installer() -> list[str]:
+    """The command that installs packages beside this Punctura. Environments of uv and pipx may have no pip."""
+    if (Path(sys.prefix) / "pipx_metadata.json").exists():
+        return ["pipx", "inject", Path(sys.prefix).name]
+    if find_spec("pip"):
+        return [sys.executable, "-m", "pip", "install"]
+    return ["uv", "pip", "install", "--python", sys.executable]
 
 
 def requirements(extra: str) -> list[str]:

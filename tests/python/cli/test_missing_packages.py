@@ -112,7 +112,7 @@ def test_a_verb_runs_or_says_which_package_it_lacks(call: str, tmp_path: Path) -
         assert (done.returncode, "needs the package" in done.stderr) == (int(lacks_a_person), False), done.stderr
         return
     assert done.returncode == 1, done.stderr
-    sentence = rf"punctura: .+ needs the package {package}, of the extra '{extra}'\. Install it: .+ -m pip install .+\n"
+    sentence = rf"punctura: .+ needs the package {package}, of the extra '{extra}'\. Install it: .+ install .+\n"
     assert re.fullmatch(sentence, done.stderr) and sys.executable in done.stderr
     assert package in packages_of(extra)
 
@@ -151,8 +151,28 @@ def test_the_command_installs_the_packages_of_the_extra_as_the_wheel_states_them
     monkeypatch.setattr(importlib.metadata, "requires", lambda name: stated)
     assert extras.requirements("identify") == ["scipy>=1.11", "typer>=0.15", "pyarrow>=18"]
     text = str(extras.missing("scipy.stats", "identify", "this"))
-    assert text.endswith('-m pip install "scipy>=1.11" "typer>=0.15" "pyarrow>=18"')
+    assert text.endswith(' "scipy>=1.11" "typer>=0.15" "pyarrow>=18"')
     assert text.startswith("this needs the package scipy, of the extra 'identify'. Install it: ")
+
+
+@pytest.mark.parametrize(
+    ("pipx", "pip", "command"),
+    [
+        (False, True, f"{sys.executable} -m pip install tqdm"),
+        (False, False, f"uv pip install --python {sys.executable} tqdm"),
+        (True, False, "pipx inject environment tqdm"),
+    ],
+)
+def test_the_command_is_one_that_this_environment_has(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, pipx: bool, pip: bool, command: str
+) -> None:
+    prefix = tmp_path / "environment"
+    prefix.mkdir()
+    if pipx:
+        (prefix / "pipx_metadata.json").touch()
+    monkeypatch.setattr(sys, "prefix", str(prefix))
+    monkeypatch.setattr(extras, "find_spec", lambda name: pip or None)
+    assert str(extras.missing("tqdm", "none", "this")).endswith(f"Install it: {command}")
 
 
 def test_a_package_that_an_optional_one_lacks_is_not_mistaken_for_it(tmp_path: Path) -> None:
