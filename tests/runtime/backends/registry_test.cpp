@@ -28,7 +28,7 @@ TEST_CASE("a back-end opens by its name, at the requested rate if possible") {
 TEST_CASE("an unknown back-end and an invalid rate are reported") {
   CHECK_THROWS_WITH_AS(open_device("abacus"), doctest::Contains("simulated"), DeviceError);
   CHECK_THROWS_AS(open_device("simulated", {0, "", ""}), DeviceError);
-  CHECK_THROWS_AS(open_device("simulated", {unknown, "", ""}), DeviceError);
+  CHECK_THROWS_AS(open_device("simulated", {not_given, "", ""}), DeviceError);
 }
 
 namespace {
