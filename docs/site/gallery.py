@@ -31,6 +31,7 @@ RUNTIME = ROOT / "runtime"
 SOURCES = (
     *(f"os/{name}.cpp" for name in ("linux", "posix_library", "socket")),
     *("loop/servo_loop.cpp", "loop/thumb_loop.cpp", "backends/polled_device.cpp", "backends/simulated.cpp"),
+    "batch/blocks.cpp",
 )
 PEAK = re.compile(r"rest +([\d.]+) s +second peak +([\d.]+) N")
 PRINTED = re.compile(r"(?:depth|y) +(-?[\d.]+) mm +force +(-?[\d.]+) N")
