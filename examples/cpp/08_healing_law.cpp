@@ -47,7 +47,7 @@ int main() {
       if (const Snapshot& s = hand.step(); k > 1600 * (1 + 3 * rests[i])) peaks[i] = std::max(peaks[i], s.force[1]);
   };
   batch::for_each_block(rests.size(), batch::usable_threads(0), work, trial, {});
-  for (std::size_t i = 0; i < rests.size(); ++i) std::printf("rest %3.1f s: second peak %.3f N\n", rests[i], peaks[i]);
+  for (std::size_t i = 0; i < rests.size(); ++i) std::printf("rest %3.1f s  second peak %.3f N\n", rests[i], peaks[i]);
 
   // On hardware: open_device("openhaptics"), from punctura_runtime/backends/registry.hpp, and loop.run(30).
   const auto device = std::make_shared<SimulatedDevice>(twice(1), SimulatedOptions{.real_time = false, .ticks = 14400});
