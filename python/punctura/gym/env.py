@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import gymnasium
 import numpy as np
 import numpy.typing as npt
+from gymnasium.envs.registration import EnvSpec
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
@@ -42,7 +44,24 @@ def info_of(out: Outcome, i: int) -> dict[str, Any]:
     return {"success": bool(out.success[i]), "pierced": bool(out.pierced[i]), "fault": int(out.fault[i])}
 
 
-class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
+class _Limited:
+    """An environment whose spec says after how many steps a trial is late, as Gymnasium's wrappers expect it. The
+    registry cannot say it: its number is a limit for each task and population that a caller gives."""
+
+    trials: Trials
+    _spec: EnvSpec | None = None
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """What gymnasium.make made it of."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: EnvSpec | None) -> None:
+        self._spec = spec and replace(spec, max_episode_steps=self.trials.max_steps)
+
+
+class NeedleEnv(_Limited, gymnasium.Env[Observations, npt.NDArray[np.float32]]):
     """A simulated hand pushes a simulated device, and the learner sets the speed of the hand.
 
     Each reset draws a scene of the population. Observation: OBSERVATION. docs/gym.md has the rewards.
@@ -88,7 +107,7 @@ class NeedleEnv(gymnasium.Env[Observations, npt.NDArray[np.float32]]):
         return self.trials.pictures[0].draw() if self.trials.pictures else None
 
 
-class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArray[Any]]):
+class NeedleVectorEnv(_Limited, VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArray[Any]]):
     """`num_envs` trials of a task. Trial i behaves as a NeedleEnv that was reset with seed + i, bit for bit.
 
     The results do not depend on the number of threads. `infos["fault"]` has the latched fault of each trial.
@@ -99,15 +118,16 @@ class NeedleVectorEnv(VectorEnv[Observations, npt.NDArray[np.float32], npt.NDArr
     def __init__(
         self, task: str | Task, num_envs: int = 1, population: Population | None = None, plant: Plant | None = None,
         hand: Hand | None = None, threads: int = 0, render_mode: str | None = None,
-        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP, max_episode_steps: int | None = None,
     ) -> None:  # fmt: skip
-        """threads: 0 is one for each processor. autoreset_mode: when a trial that has ended begins anew."""
+        """threads: 0 is one for each processor. autoreset_mode: when a trial that has ended begins anew.
+        max_episode_steps: a trial is late after them, if the task's time is not up before."""
         self.render_mode = checked_render_mode(render_mode)
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {**RENDERING, "autoreset_mode": self.autoreset_mode}
         self.task = task_of(task)
         self.num_envs = num_envs
-        self.trials = Trials(self.task, num_envs, population, plant, hand, threads)
+        self.trials = Trials(self.task, num_envs, population, plant, hand, threads, max_episode_steps)
         self.single_observation_space = observation_space()
         self.single_action_space = action_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)

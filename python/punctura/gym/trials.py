@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -63,14 +64,19 @@ class Trials:
     or a fault, -1; otherwise 0."""
 
     def __init__(
-        self, task: Task, n: int, population: Population | None, plant: Plant | None, hand: Hand | None, threads: int
-    ) -> None:
+        self, task: Task, n: int, population: Population | None, plant: Plant | None, hand: Hand | None, threads: int,
+        max_steps: int | None = None,
+    ) -> None:  # fmt: skip
         if isinstance(n, bool) or not isinstance(n, int | np.integer):
             raise TypeError(f"num_envs is {n!r}: it must be a whole number")
         if n < 1:
             raise ValueError(f"num_envs is {n}: there must be at least 1 environment")
         if not isinstance(population, Population | None):
             raise TypeError(f"population is {population!r}, not a punctura.gym.Population")
+        if max_steps is not None and (isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer)):
+            raise TypeError(f"max_episode_steps is {max_steps!r}: it must be a whole number")
+        if max_steps is not None and max_steps < 1 and max_steps != -1:
+            raise ValueError(f"max_episode_steps is {max_steps}: it must be at least 1, or -1 for the task's own limit")
         self.task, self.n = task, n
         self.population = population or Population(load_scene(task.scene), task.vary)
         count = len(self.population.scene.membranes)
@@ -81,9 +87,14 @@ class Trials:
         self.fleet = Fleet(task.axis, plant or Plant(), hand or Hand(), threads, few)
         self.rate = self.population.scene.servo.rate
         self.ticks = max(1, round(task.decision * self.rate))
+        self.period = self.ticks / self.rate
+        own = task.time_limit / self.period - 0.5
+        self.max_steps = max(1, math.ceil(own)) if math.isfinite(own) else None  # after them a trial is late
+        if max_steps is not None and max_steps > 0:
+            self.max_steps = min(int(max_steps), self.max_steps or int(max_steps))
         self.pictures: dict[int, Picture] = {}  # by trial, if the environment draws
         self._begin, self._end = np.zeros(n), np.zeros(n)
-        self._time, self._rest = np.zeros(n), np.zeros(n)
+        self._steps, self._rest = np.zeros(n, int), np.zeros(n)
 
     def start(self, i: int, random: np.random.Generator, draws: bool = False) -> None:
         """Starts trial i anew, with a scene, a distance to the skin and a tremor that `random` draws. draws: with a
@@ -93,7 +104,7 @@ class Trials:
         start = -distance * np.array(self.task.axis)
         self.fleet.place(i, scene, start, int(random.integers(2**63)))
         self._begin[i], self._end[i] = self.task.space(scene)
-        self._time[i] = self._rest[i] = 0
+        self._steps[i] = self._rest[i] = 0
         if draws:
             self.pictures[i] = Picture(scene, start, np.array(self.task.axis))
 
@@ -122,18 +133,18 @@ class Trials:
         step = self.fleet.step(share * task.fastest, self.ticks)
         for i, picture in self.pictures.items():
             picture.add(step["travel"][i], step["lowest_force"][i], step["highest_force"][i])
-        period = self.ticks / self.rate
-        self._time += period
+        self._steps += 1
         depth, deepest = step["depth"], step["deepest"]
         pierced = deepest[:, task.wall] > self._end
         if task.next_wall is not None:
             pierced |= deepest[:, task.next_wall] > task.press
         resting = (depth[:, task.wall] >= self._begin) & ~pierced & (np.abs(step["speed"]) < task.still)
-        self._rest = np.where(resting, self._rest + period, 0)
+        self._rest = np.where(resting, self._rest + self.period, 0)
         fault = step["fault"]
         failed = pierced | (fault != Fault.none.value)
-        success = (self._rest >= task.hold - period / 2) & ~failed
-        late = self._time >= task.time_limit - period / 2
-        reward = np.where(failed, -1.0, np.where(success, 1 - 0.5 * self._time / task.time_limit, 0.0))
+        success = (self._rest >= task.hold - self.period / 2) & ~failed
+        late = self._steps >= (self.max_steps or math.inf)
+        used = self._steps * self.period / task.time_limit
+        reward = np.where(failed, -1.0, np.where(success, 1 - 0.5 * used, 0.0))
         terminated = failed | success
         return Outcome(observations(step), reward, terminated, late & ~terminated, success, pierced, fault)

@@ -10,7 +10,9 @@ import numpy as np
 import punctura as pn
 import punctura.gym as pg
 import pytest
+from gymnasium.envs.registration import EnvSpec
 from gymnasium.utils.env_checker import check_env
+from gymnasium.wrappers import TimeAwareObservation
 from punctura.extras import optional
 from punctura.gym.trials import Trials
 from punctura.live import Fault
@@ -207,6 +209,44 @@ def test_a_copied_environment_goes_on_with_the_same_bits(again):
             np.testing.assert_equal(rest, also_rest)
             if env is single and (rest[1] or rest[2]):
                 break
+
+
+def late_after(env: gymnasium.Env) -> int:
+    """The steps until a hand that does nothing is late."""
+    env.reset(seed=1)
+    return next(k for k in range(1, 2000) if env.step(np.float32([0]))[3])
+
+
+@pytest.mark.parametrize(("name", "steps"), list(zip(NAMES, (1000, 1500, 1000), strict=True)))
+def test_the_spec_says_after_how_many_steps_a_trial_is_late_and_makes_the_same_environment(name, steps):
+    env = gymnasium.make(name)
+    assert env.spec.max_episode_steps == late_after(env) == steps
+    again = gymnasium.make(EnvSpec.from_json(env.spec.to_json()))
+    assert again.spec.max_episode_steps == late_after(again) == steps
+    assert TimeAwareObservation(env).observation_space.high[-1] == steps
+    several = gymnasium.make_vec(name, num_envs=2)
+    assert gymnasium.make_vec(several.spec).spec.max_episode_steps == several.spec.max_episode_steps == steps
+    theirs = gymnasium.make_vec(name, num_envs=2, vectorization_mode="sync")
+    assert theirs.envs[0].spec.max_episode_steps == steps
+
+
+def test_a_limit_of_ones_own_is_that_of_the_task_or_of_the_caller_whichever_is_first():
+    slow = replace(pg.TASKS["StopAfterPop"], decision=0.5)
+    own = gymnasium.make("punctura/StopAfterPop-v0", task=slow)
+    assert own.spec.max_episode_steps == late_after(own) == 40
+    longer = gymnasium.make("punctura/StopAfterPop-v0", task=replace(slow, time_limit=600.0))
+    assert longer.spec.max_episode_steps == late_after(longer) == 1200
+    endless = gymnasium.make("punctura/StopAfterPop-v0", task=replace(slow, time_limit=np.inf))
+    assert endless.spec.max_episode_steps is None
+    for given, steps in ((7, 7), (50, 40), (-1, 40)):
+        several = gymnasium.make_vec("punctura/StopAfterPop-v0", 2, task=slow, max_episode_steps=given)
+        assert several.spec.max_episode_steps == steps
+        several.reset(seed=1)
+        late = [several.step(np.zeros((2, 1), np.float32))[3].tolist() for _ in range(steps)]
+        assert late == [[False, False]] * (steps - 1) + [[True, True]]
+    for wrong, error in ((0, ValueError), (-2, ValueError), (1.5, TypeError), (True, TypeError)):
+        with pytest.raises(error, match="max_episode_steps is"):
+            pg.NeedleVectorEnv("StopAfterPop", 2, max_episode_steps=wrong)
 
 
 def test_a_population_draws_within_its_ranges_and_repeats_with_the_seed():
