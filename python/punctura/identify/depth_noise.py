@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.noise import effective_samples
 from punctura.trace import Trace
-from punctura.trace.samples import equal_runs, rounding
+from punctura.trace.steps import equal_runs, rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace
-from punctura.trace.samples import rounding
+from punctura.trace.steps import rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]

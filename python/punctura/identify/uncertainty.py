@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.fit import Fit
 from punctura.identify.noise import autocorrelation
-from punctura.trace.samples import equal_runs, rounding
+from punctura.trace.steps import equal_runs, rounding
 
 Array = NDArray[np.float64]
 

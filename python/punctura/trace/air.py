@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace.steps import DIGITS, rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
@@ -18,6 +19,7 @@ NOISES, SHARE = 8.0, 0.03  # a departure is larger than so many times the noise,
 FIRM = 0.5  # of the greatest force: so much only tissue resists
 NEAR = 0.02  # of the range of the depths
 STEEP, SURE = 0.5, 3.0  # of the slope behind the contact, and so many errors: in air the force rises by less
+MANY, SHAPED, FINER = 20, 1.5, 4.0  # samples of air; times the noise; a part of the threshold before
 AROUND = 5  # times the samples of the first rise: the samples before it in which the contact is looked for
 
 
@@ -106,15 +108,45 @@ def contact_sample(depth: Array, force: Array, after: Array | None = None) -> in
         found = _departure(force, change, noise, share)
         if found is None:
             continue
-        calm, risen = found
-        top = min(risen + max(LASTS, risen - calm), len(force))
-        first = max(0, calm - AROUND * (top - calm))
-        used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
-        tried = used[:: max(1, len(used) // 100)]
-        best = int(tried[np.argmin(_hinge_errors(depth[used], force[used], depth[tried]))])
+        best, top, left = _hinge(depth, force, *found)
         if best >= FEWEST and not _rises(depth, force, best, top):
-            return best
+            return _sooner(depth, force, found[0], best, top, left)
     return None
+
+
+def _sooner(depth: Array, force: Array, calm: int, best: int, top: int, left: float) -> int:
+    """The contact `best`, looked for in ever less of the rise where a parabola leaves more there than the noise.
+
+    calm: the last sample within the noise. left: rms of what the parabola leaves up to the sample `top`, N.
+    """
+    air = force[: calm + 1]
+    noise = max(spread(air) if len(air) >= MANY else 0.0, calm_noise(force), rounding(force))
+    away = np.abs(force - float(np.median(air)))
+    height = float(away.max())
+    least = max(NOISES * noise, DIGITS * height)
+    threshold, risen = float(away[calm:top].max()), top
+    if threshold <= least:  # only the average over the samples has left the air by then
+        threshold, risen, left = height, len(force), np.inf
+    while left > max(SHAPED * noise, DIGITS * height) and risen - calm > 1 and threshold > least:
+        threshold = max(threshold / FINER, least)
+        lasting = np.convolve(away[calm:] > threshold, np.ones(LASTS), "valid") == LASTS
+        if not lasting.any():
+            break
+        risen = calm + int(np.argmax(lasting)) + 1
+        calm += int(np.flatnonzero(away[calm : risen - 1] <= 2 * noise).max(initial=0))
+        best, _, left = _hinge(depth, force, calm, risen)
+    return best
+
+
+def _hinge(depth: Array, force: Array, calm: int, risen: int) -> tuple[int, int, float]:
+    """The contact around the last calm sample and the first risen one, the end of what tells it, and the rms left."""
+    top = min(risen + max(LASTS, risen - calm), len(force))
+    first = max(0, calm - AROUND * (top - calm))
+    used = np.unique(np.linspace(first, top - 1, min(top - first, 400)).astype(int))
+    tried = used[:: max(1, len(used) // 100)]
+    errors = _hinge_errors(depth[used], force[used], depth[tried])
+    best = int(np.argmin(errors))
+    return int(tried[best]), top, float(np.sqrt(errors[best] / len(used)))
 
 
 def _rises(depth: Array, force: Array, contact: int, top: int) -> bool:
@@ -157,7 +189,7 @@ def _departure(force: Array, change: float = 0.0, noise: float = 0.0, share: flo
     if height == 0 or len(lasting) == 0:
         return None
     at = int(lasting[0])
-    calm = np.flatnonzero(away[:at] < 2 * noise + slow[:at])
+    calm = np.flatnonzero(away[:at] <= 2 * noise + slow[:at])
     return (int(calm[-1]) if len(calm) else 0), at + 1
 
 

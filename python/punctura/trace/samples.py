@@ -1,7 +1,4 @@
-"""What is wrong with the samples themselves: no reading, no motion, no force, gaps, spikes, a force that is cut off.
-
-Also the steps of a sensor that gives only multiples of one.
-"""
+"""What is wrong with the samples themselves: no reading, no motion, no force, gaps, spikes, a force that is cut off."""
 
 from __future__ import annotations
 
@@ -15,38 +12,17 @@ from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
 from punctura.trace.segment import Segments
+from punctura.trace.steps import OFF, equal_runs
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
 Array = NDArray[Any]
 
-DIGITS = 1e-9  # of the range of the values: differences as small are of the computer
-OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
 FEW = 0.05  # of the samples: so many spikes may be left out
 AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
 NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
 ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
 READINGS, COARSE, MOST = 20, 0.005, 0.9  # held readings, share of the range that is no fine step, share of them
-FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
-
-
-def rounding(values: Array) -> float:
-    """The standard deviation of the rounding to multiples of a step, in the unit of values; 0 if there is none."""
-    apart = np.diff(np.unique(values))
-    apart = apart[apart > DIGITS * float(np.ptp(values))]
-    for parts in range(1, PARTS + 1 if len(apart) >= FEWEST else 1):
-        step = float(apart.min()) / parts
-        for _ in range(2):  # a file may give the step itself in few digits
-            step = float(apart.sum() / np.round(apart / step).sum())
-        off = apart / step - np.round(apart / step)
-        if np.sqrt(np.mean(off**2)) < OFF:
-            return float(step / np.sqrt(12))
-    return 0.0
-
-
-def equal_runs(values: Array) -> NDArray[np.int64]:
-    """The first sample of each run of equal values, and behind the last one their number (runs + 1,)."""
-    return np.concatenate(([0], np.flatnonzero(np.diff(values)) + 1, [len(values)]))
 
 
 FAR = 20.0  # times the range of all other values: no tissue and no motion makes such a value

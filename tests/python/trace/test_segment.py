@@ -8,7 +8,7 @@ from punctura.trace import Trace, TraceError, segment
 from punctura.trace.air import contact_sample
 from punctura.trace.findings import examine
 from punctura.trace.numbers import numbers_of
-from punctura.trace.samples import rounding
+from punctura.trace.steps import rounding
 from punctura.trace.turns import noise_of, turning_points
 from traces import force_of, motion, trace
 
@@ -91,6 +91,33 @@ def test_noise_moves_the_contact_of_a_soft_rise_by_less_than_a_millimetre():
     noise = [np.random.default_rng(seed).normal(0, 0.01, len(depth)) for seed in range(20)]
     found = [depth[contact_sample(depth, rise + one)] for one in noise]
     assert np.abs(np.array(found) - 4e-3).max() < 1e-3
+
+
+RISES = {
+    "ramp": lambda way: 0.2e3 * way,
+    "exponential": lambda way: 0.05 * np.expm1(way / 2e-3),
+    "step": lambda way: (way > 0) * (0.3 + 50 * way),
+    "skin of example 08": lambda way: np.where(way < 2.12e-3, 400 * way, 0.05 * (way > 0)),
+    "K06": lambda way: force_of(way, 0.0),
+    "K06, soft": lambda way: force_of(way, 0.0, SOFT, 1500.0),
+}
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-6, 1e-4])
+@pytest.mark.parametrize("rise", RISES.values(), ids=RISES.keys())
+def test_with_little_noise_or_none_the_contact_is_exact(rise, noise):
+    for step in (2e-6, 25e-6):  # m
+        depth = np.arange(0, 12e-3, step) - 3.013e-3
+        way = np.maximum(depth, 0) if rise not in (RISES["K06"], RISES["K06, soft"]) else depth
+        force = rise(way) + noise * np.random.default_rng(1).normal(size=len(depth))
+        contact = segment(Trace(depth, force, np.arange(len(depth)) / 200)).contact
+        assert depth[contact] == pytest.approx(0, abs=(20e-6 if noise else 5e-6) + step)
+
+
+def test_steps_of_a_quiet_sensor_do_not_put_the_contact_late():
+    depth = np.arange(0, 12e-3, 5e-6)
+    force = np.round(100 * np.maximum(depth - 4.1e-3, 0) / 0.02) * 0.02  # one step each 0.2 mm
+    assert depth[contact_sample(depth, force)] == pytest.approx(4.1e-3, abs=0.1e-3)
 
 
 def test_a_hand_that_turns_in_air_has_its_contact_behind_the_last_turn():
