@@ -106,23 +106,26 @@ make_c() {
     -DCMAKE_INSTALL_LIBDIR=lib -DPUNCTURA_TOML_DIR="$work/include" >"$work/c.log"
   cmake --build "$work/c" >>"$work/c.log"
   cmake --install "$work/c" --strip --prefix "$work/$name" >>"$work/c.log"
-  cp "$root/LICENSE" "$work/$name/"
+  cp "$root/LICENSE" "$root/capi/README.md" "$work/$name/"
+  mkdir -p "$work/$name/example"
+  cp "$root"/integrations/c/{insert.c,CMakeLists.txt} "$root/python/punctura/ready_scenes/k06-fig12.toml" \
+    "$work/$name/example/"
   pack "$name"
 
-  # As its user has it: in another folder, with pkg-config and find_package(punctura 0.1...<1).
-  local user=$work/user-c scene=$root/python/punctura/ready_scenes/k06-fig12.toml
-  mkdir -p "$user" && tar -xzf "$made/$name.tar.gz" -C "$user" --strip-components 1
+  # As its user has it: in another folder, by the commands of its README, and with find_package(punctura 0.1...<1).
+  local user=$work/user-c
+  rm -rf "$user" && mkdir -p "$user" && tar -xzf "$made/$name.tar.gz" -C "$user" --strip-components 1
   needs_glibc "$user/lib/libpunctura.so"
   "$root/tools/check_exports.sh" "$user/lib/libpunctura.so"
-  # shellcheck disable=SC2046
-  "$CC" -O2 "$root/integrations/c/insert.c" -o "$work/insert" \
-    $(PKG_CONFIG_PATH=$user/lib/pkgconfig pkg-config --cflags --libs punctura)
+  awk '/^```/ { inside = /^```sh/; next } inside' "$user/README.md" >"$work/readme.sh"
+  (cd "$user" && PATH=$work:$PATH sh -eu "$work/readme.sh") >"$work/readme.log" # its cc is that for the older glibc
+  grep -q 'N$' "$work/readme.log"
+  (cd "$user" && env -u LD_LIBRARY_PATH ./insert example/k06-fig12.toml) >"$work/by-pkg-config"
+  "$user/build/insert" "$user/example/k06-fig12.toml" | cmp - "$work/by-pkg-config"
+  tail -n 3 "$work/by-pkg-config"
   cmake -S "$root/tests/consumer" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$user" -DWITH_C=ON >>"$work/c.log"
   cmake --build "$work/consumer" >>"$work/c.log"
   "$work/consumer/consumer"
-  "$work/consumer/insert" "$scene" >"$work/by-cmake"
-  LD_LIBRARY_PATH=$user/lib "$work/insert" "$scene" | cmp - "$work/by-cmake"
-  tail -n 3 "$work/by-cmake"
 }
 
 make_npm() {
@@ -135,8 +138,9 @@ make_npm() {
   mv "$work/punctura-$version.tgz" "$made/punctura-npm-$version.tgz"
   mkdir -p "$work/npm" && cd "$work/npm"
   npm install --silent --no-audit --no-fund --prefix . "$made/punctura-npm-$version.tgz"
-  sed 's|"./punctura.mjs"|"punctura"|' "$root/integrations/wasm/example.mjs" >example.mjs
-  node example.mjs | tail -n 3
+  node node_modules/punctura/example.mjs | tail -n 3
+  awk '/^```/ { inside = /^```js/; next } inside' node_modules/punctura/README.md >readme.mjs
+  node readme.mjs | tail -n 1
 }
 
 make_site() {
@@ -152,7 +156,25 @@ make_site() {
 }
 
 make_notes() {
-  awk -v version="$version" '/^## / { inside = $2 == version "," } inside' "$root/CHANGELOG.md" >"$made/NOTES.md"
+  # The set has the pages only in its site, so no link leads to one.
+  awk -v version="$version" '/^## / { inside = $2 == version "," } inside' "$root/CHANGELOG.md" |
+    sed -Ez 's/\[([^]]*)\]\([^):]*\)/\1/g' >"$made/NOTES.md"
+  ! grep -nE '\]\([^:)]*\)' "$made/NOTES.md" || { echo "NOTES.md links to a file that a release lacks"; exit 1; }
+  cat >>"$made/NOTES.md" <<END
+
+A word in brackets, such as (safety), names a page of the site.
+
+**Files**
+
+| file | for | first |
+|---|---|---|
+| \`punctura-$version-*.whl\` | that version of Python | \`pip install './FILE[all]'\`, then \`punctura run\` |
+| \`punctura-$version.tar.gz\` | the sources: other systems and versions of Python | its \`README.md\` |
+| \`punctura-c-$version-*.tar.gz\` | C and C++ without Python | its \`README.md\` |
+| \`punctura-npm-$version.tgz\` | JavaScript | \`npm install ./FILE\` |
+| \`punctura-site-$version.tar.gz\` | all pages of the documentation | \`index.html\` |
+| \`SHA256SUMS\` | what each file must be | \`sha256sum --check SHA256SUMS\` |
+END
   head -n 1 "$made/NOTES.md" | grep -qE '[0-9]{4}-[0-9]{2}-[0-9]{2}' ||
     echo "CHANGELOG.md has no date for $version. Write it, as in: ## $version, 2026-01-31"
   echo "When all is good, commit and tag:"

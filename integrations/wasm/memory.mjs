@@ -47,10 +47,15 @@ const MAGIC = [0, 0x61, 0x73, 0x6d]; // the first bytes of each WebAssembly modu
 
 function bytesOf(source) {
   if (source === undefined) return ownBytes();
-  if (!(source instanceof URL) && typeof source !== "string") return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return source;
+  if (!(source instanceof URL) && typeof source !== "string")
+    throw new TypeError(`load() takes nothing, a URL, or the bytes of punctura.wasm, not ${shown(source)}`);
   const base = import.meta.url; // apart from `new URL`, of which a bundler wants to know the file
   return bytesAt(new URL(source, base));
 }
+
+/** A value of a wrong type, in a message. */
+export const shown = (given) => (Array.isArray(given) ? "a list" : String(given));
 
 /** An error with `problems`: where in the scene, the value, and the reason. */
 export class PuncturaError extends Error {
@@ -119,7 +124,7 @@ export class Memory {
 
   /** Three numbers into the scratch memory. */
   put(three, at) {
-    if (three.length !== 3) throw new RangeError("a position, an axis or a force has three numbers");
+    if (three?.length !== 3) throw new RangeError("a position, an axis or a force has three numbers");
     this.doubles.set(three, at / 8);
   }
   triple(at) {

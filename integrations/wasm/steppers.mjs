@@ -1,5 +1,5 @@
 // One membrane on a line, the model of a scene, and the whole servo step: each with peek, commit and its state.
-import { Handle } from "./memory.mjs";
+import { Handle, shown } from "./memory.mjs";
 import { withScene } from "./scene.mjs";
 import {
   LIMIT_FIELDS, LIMITS, MEMBRANE_TICK, readMembraneTick, readRecord, RECORD, SAMPLE, STATUS, writeSample,
@@ -45,6 +45,7 @@ class Stepper {
     });
   }
   set state(bytes) {
+    if (!(bytes instanceof Uint8Array)) throw new TypeError(`a state is a Uint8Array, not ${shown(bytes)}`);
     this.#memory.withMemory(Math.max(1, bytes.length), (at) => {
       new Uint8Array(this.#memory.c.memory.buffer).set(bytes, at);
       this.#memory.must(this.call("restore", this.at, at, bytes.length));
@@ -110,6 +111,8 @@ export const steppersOf = (memory) => {
 
   class Servo extends Stepper {
     constructor(scene, limits = {}) {
+      if (typeof limits !== "object" || limits === null)
+        throw new TypeError(`limits is an object, as in { max_force: 2 }, not ${shown(limits)}`);
       const at = c.malloc(LIMITS);
       try {
         memory.must(c.punctura_limits_init(at, LIMITS));
@@ -136,7 +139,12 @@ export const steppersOf = (memory) => {
     peek(sample) {
       return this.#tick(c.punctura_servo_peek, sample);
     }
-    #tick(make, { sequence, time, position, axis, buttons = 0, healthy = true, motorTemperature = 0, thumb = 0 }) {
+    #tick(make, sample) {
+      if (typeof sample !== "object" || sample === null)
+        throw new TypeError(`a sample is { sequence, time, position, axis }, not ${shown(sample)}`);
+      const { sequence, time, position, axis, buttons = 0, healthy = true, motorTemperature = 0, thumb = 0 } = sample;
+      if (!Number.isSafeInteger(sequence) && typeof sequence !== "bigint")
+        throw new TypeError(`sequence is ${shown(sequence)}: it must be a whole number`);
       memory.must(c.punctura_sample_init(sampleAt, SAMPLE));
       const state = healthy ? 1 : 0;
       const count = BigInt(sequence);

@@ -1,5 +1,5 @@
 // node test.mjs FOLDER: all forces of the reference motion, bit for bit, the messages, and the size.
-import { deepStrictEqual, match, strictEqual, throws } from "node:assert";
+import { deepStrictEqual, match, rejects, strictEqual, throws } from "node:assert";
 import { readFileSync, statSync } from "node:fs";
 import { load } from "./punctura.mjs";
 
@@ -73,6 +73,15 @@ throws(() => new Insertion({ ...part, needle: { width: 1 } }), /no number "needl
 throws(() => new Insertion({ lines: "needle.diameter 3" }), /line 1: /);
 throws(() => new Insertion({ ...part, membrane: [{ friction: true }] }), /membrane\[0\]\.friction must be a number, or/);
 throws(() => new Insertion("[needle"), /line 1, column .*not TOML/);
+for (const given of [null, undefined, 5, [scene]])
+  throws(() => new Insertion(given), /^TypeError: a scene is the text of .*, not (null|undefined|5|a list)$/);
+throws(() => new Insertion({ lines: 5 }), /^TypeError: lines is a text .*, not 5$/);
+throws(() => new Servo(file, null), /^TypeError: limits is an object.*, not null$/);
+throws(() => servo.step(null), /^TypeError: a sample is .*, not null$/);
+throws(() => servo.step({ ...sampleOf(0), sequence: 1.5 }), /^TypeError: sequence is 1.5: /);
+throws(() => insertion.step(null, [0, -1, 0]), /three numbers/);
+throws(() => (fromFile.state = null), /^TypeError: a state is a Uint8Array, not null$/);
+for (const given of [null, 5]) await rejects(load(given), /^TypeError: load\(\) takes nothing, a URL, .*, not (null|5)$/);
 const wrong = file.replace(/friction = [^\n]*/, "friction = -1").replace(/thickness_mm = [^\n]*/, "thickness_mm = -1");
 throws(
   () => new Insertion(wrong),

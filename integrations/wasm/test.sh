@@ -15,6 +15,11 @@ node "$here/test.mjs" "$reference"
 python3 "$here/live_reference.py" "$work/live"
 node "$here/test_live.mjs" "$work/live"
 node "$here/example.mjs" | awk '{ print; if ($3 > most) most = $3 } END { exit !(most > 0.4) }'
+# The program of README.md, whose needle stops before the pop.
+mkdir -p "$work"
+awk '/^```/ { inside = /^```js/; next } inside' "$here/README.md" |
+  sed "s|\"punctura\"|\"$here/punctura.mjs\"|" >"$work/readme.mjs"
+node "$work/readme.mjs" | awk '{ if ($1 > most) most = $1 } END { exit !(most > 0.4) }'
 
 python3 "$root/tools/build_backend/studio_page.py" --modules
 "$root/web/node_modules/.bin/tsc" --noEmit --strict --target es2022 --module nodenext "$here/example_types.mts"

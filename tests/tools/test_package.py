@@ -97,6 +97,16 @@ def test_every_place_has_the_same_version():
         assert found and found[1] == number, file
 
 
+def test_the_readmes_of_the_npm_package_and_the_c_library_name_only_what_their_reader_has():
+    packed = json.loads((ROOT / "integrations/wasm/package.json").read_text())
+    for file in ("integrations/wasm/README.md", "capi/README.md"):
+        links = re.findall(r"\]\(([^)]+)\)", (ROOT / file).read_text())
+        assert [link for link in links if not link.startswith("#")] == []
+    text = (ROOT / "integrations/wasm/README.md").read_text()
+    assert f"npm install ./punctura-npm-{packed['version']}.tgz" in text
+    assert set(re.findall(r"node_modules/punctura/([\w.]+)", text)) <= set(packed["files"])
+
+
 def test_a_release_refuses_a_file_that_is_in_no_commit(tmp_path: Path) -> None:
     for name in ("tools/release.sh", "tools/zig.sh", "integrations/tools.sh", "CMakeLists.txt"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
