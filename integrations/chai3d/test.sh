@@ -10,6 +10,7 @@ c++ $flags -I"$here/test/stand_ins" "$here/test/test.cpp" -L"$library" -lpunctur
 "$work/test" "$reference"
 
 cmake --install "$root/build/integrations/library" --prefix "$work/root" >"$work/log"
+cd "$work" # where --find-package leaves a folder
 if ! cmake --find-package -DNAME=chai3d -DCOMPILER_ID=GNU -DLANGUAGE=CXX -DMODE=EXIST \
   ${chai3d_DIR:+-Dchai3d_DIR="$chai3d_DIR"} >/dev/null 2>&1; then
   echo "CHAI3D is not built here (chai3d_DIR names the folder): CHAI3D's own world was not tried"
