@@ -2,6 +2,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "punctura/model/law.hpp"
 #include "punctura/proxy/coupling.hpp"
@@ -64,12 +65,12 @@ constexpr void lay_out(const LineParams<L, C>& params, LineState<L, C>& state) n
   if constexpr (LawWithMemory<L>) state.pieces = pieces_for(params.law, state.law);
 }
 
-/// The pieces of the law for the present memory of the membrane.
+/// The pieces of the law for the present memory of the membrane: a value where pieces() of the law returns one.
 template <typename L, typename C>
-constexpr const auto& pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
+constexpr decltype(auto) pieces_now(const LineParams<L, C>& params, LineState<L, C>& state) noexcept {
   if constexpr (LawWithMemory<L>) {
     if (!state.started) lay_out(params, state);
-    return state.pieces;
+    return std::as_const(state.pieces);
   } else {
     return params.law.pieces();
   }

@@ -85,6 +85,28 @@ TEST_CASE("K06's law with 17 pieces has the same forces, bit for bit") {
   }
 }
 
+TEST_CASE("a law may return its pieces by value or by reference, on a line and in space") {
+  struct ByValue {
+    using Scalar = double;
+    ThickLaw law;
+    ThickLaw::Pieces pieces(double cos_beta = 1) const noexcept { return law.pieces(cos_beta); }
+  };
+  Noise noise(91);
+  const LawCase c = random_law(noise, 1e-3);
+  const ThickLaw law(c.needle, c.membrane);
+  for (Solver solver : {Solver::paper, Solver::exact}) {
+    Proxy1d line(law, Coupling{400, 1}, T, solver);
+    Proxy1d line_by_value(ByValue{law}, Coupling{400, 1}, T, solver);
+    Proxy3d space(law, Vector3d(), Vector3d(0, -1, 0), Coupling{400, 1}, T, solver);
+    Proxy3d space_by_value(ByValue{law}, Vector3d(), Vector3d(0, -1, 0), Coupling{400, 1}, T, solver);
+    for (double p : random_motion(noise, 1000, law.constants().X + 2 * law.thickness(), T)) {
+      REQUIRE(line_by_value.step(p) == line.step(p));
+      REQUIRE(line_by_value.tick().band.lower == line.tick().band.lower);
+      REQUIRE(space_by_value.step({0, -p, 0}, {0, -1, 0}) == space.step({0, -p, 0}, {0, -1, 0}));
+    }
+  }
+}
+
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const OwnCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
