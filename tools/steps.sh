@@ -292,6 +292,8 @@ step_examples() {
     example=$(basename "$example" .cpp)
     echo "examples/cpp/$example.cpp" && "$root/build/dev/examples/$example" || return
   done
+  "$root/build/dev/examples/faulty_law"
+  [ $? = 1 ] || { echo "a fault of example 08 does not end it with 1"; return 1; }
 }
 
 # The steps below run only by name.

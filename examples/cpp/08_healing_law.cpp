@@ -14,8 +14,7 @@ using namespace punctura;
 struct SkinLaw {
   using Scalar = double;
   struct Memory {
-    double front, hole;  ///< the deepest point of this insertion, and of all, m
-    double healed;       ///< how far the skin between them has healed: 0 is open, 1 is whole
+    double front, hole, healed;  ///< deepest points of this insertion and of all, m; 0: open, 1: whole between them
   };
   double bottom, cut = 0.8, friction = 0.05;  // m, N, N
 
@@ -28,8 +27,7 @@ struct SkinLaw {
   bool advance(Memory& m, double depth, double dt) const noexcept {  // in each tick; dt: s
     if (depth > 0) return depth > m.front && (m.front = depth, true);
     if (m.front > 0) m = {0, std::max(m.front, m.hole), m.front < m.hole ? m.healed : 0};  // the tip has left
-    m.healed += (1 - m.healed) * dt / 2;                                                   // within some 2 s
-    return true;
+    return m.healed += (1 - m.healed) * dt / 2, true;                                      // within some 2 s
   }
 };
 
@@ -37,18 +35,18 @@ int main() {
   const Scene scene{"skin", {1.08e-3, 0.28}, {400, 1}, {{"skin", {570, 0.8, 0.05, 2e-3}, {0, 0, 0}, {0, -1, 0}}}};
   const auto law_of = [](Needle, Membrane m, auto) { return SkinLaw{m.thickness}; };
   const auto twice = [](double rest) { return StrokesMotion({{0, 5e-3, 0}, {0, -9e-3, 0}, 2, 0.5, rest, 0}, 1); };
-
   const std::vector rests{0.5, 1.0, 2.0, 4.0, 8.0};  // s
   std::vector peaks(rests.size(), 0.0);              // N, of the second insertion
+  std::vector faults(rests.size(), Fault::none);
   batch::Work work;
   const auto trial = [&](std::size_t i) {
     Experiment hand(build<double>(scene, law_of), 1 / 1600.0, twice(rests[i]), {0, -1, 0});
     for (int k = 0; k < 1600 * (2 + 5 * rests[i]); ++k)
-      if (const Snapshot& s = hand.step(); k > 1600 * (1 + 3 * rests[i])) peaks[i] = std::max(peaks[i], s.force[1]);
+      if (const Snapshot& s = hand.step(); (faults[i] = s.fault) == Fault::none && k > 1600 * (1 + 3 * rests[i]))
+        peaks[i] = std::max(peaks[i], s.force[1]);
   };
   batch::for_each_block(rests.size(), batch::usable_threads(0), work, trial, {});
   for (std::size_t i = 0; i < rests.size(); ++i) std::printf("rest %3.1f s  second peak %.3f N\n", rests[i], peaks[i]);
-
   // On hardware: open_device("openhaptics"), from punctura_runtime/backends/registry.hpp, and loop.run(30).
   const auto device = std::make_shared<SimulatedDevice>(twice(1), SimulatedOptions{.real_time = false, .ticks = 14400});
   ServoLoop loop(device, scene, {.model = StepMaker::with_laws(law_of)});
@@ -57,4 +55,6 @@ int main() {
   std::ofstream file("skin.csv");
   file << "time_s,y_m,fy_N\n";
   ticks.pop(14400, [&](auto& s) { file << s.sample.time << ',' << s.sample.position[1] << ',' << s.force[1] << '\n'; });
+  const Fault fault = std::max(*std::ranges::max_element(faults), loop.latest().fault);
+  return fault == Fault::none ? 0 : (std::puts(describe(fault)), 1);
 }
