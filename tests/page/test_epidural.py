@@ -133,6 +133,21 @@ def test_a_key_a_trigger_and_the_wheel_push_the_plunger_and_its_force_is_in_plot
     assert max(kept["injected_m3"]) > 0 and max(kept["plunger_m"]) > 0
 
 
+def test_a_mouse_that_holds_the_plunger_moves_the_needle_with_its_wheel(shown: Page) -> None:
+    force = tab(shown, "Hand").locator("section", has=shown.get_by_role("heading", name="Syringe")).locator("output")
+    hand = shown.get_by_role("row", name="Hand")
+    shown.get_by_role("button", name="Hold to push the plunger").hover()
+    before = hand.inner_text()
+    shown.mouse.wheel(0, 100)  # not held
+    shown.mouse.down()
+    expect(force.first).to_have_text(re.compile(r"^[1-9]"))
+    expect(hand).to_have_text(before, use_inner_text=True)
+    shown.mouse.wheel(0, 100)
+    expect(hand).not_to_have_text(before, use_inner_text=True)
+    shown.mouse.up()
+    expect(force.first).to_have_text(re.compile(r"^0[.][0-4]"))
+
+
 def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_path: Path) -> None:
     second = ["--second-device", "simulated"]
     with StudioProcess(tmp_path, "epidural", more=second) as studio, opened(browser, studio.url) as page:

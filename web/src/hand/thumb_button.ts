@@ -1,8 +1,13 @@
 import { element } from "../panel.ts";
 import type { App } from "../state/app.ts";
+import { handOf } from "./hand.ts";
 import { FIRM, thumbOf } from "./thumb.ts";
+import { wheelDepth } from "./wheel.ts";
 
-/** A button that pushes the syringe's plunger while it is held, with a pointer or with Space or Enter. */
+/**
+ * A button that pushes the syringe's plunger while it is held, with a pointer or with Space or Enter. A mouse that
+ * holds it moves the needle with its wheel.
+ */
 export function thumbButton(app: App, label: string, style: string): HTMLButtonElement {
   const thumb = thumbOf(app);
   const push = element("button", { type: "button", class: style, "aria-pressed": "false" }, label);
@@ -14,6 +19,15 @@ export function thumbButton(app: App, label: string, style: string): HTMLButtonE
   for (const end of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) {
     push.addEventListener(end, () => hold(false));
   }
+  push.addEventListener(
+    "wheel",
+    (event) => {
+      if (thumb.force.value === 0) return;
+      event.preventDefault();
+      handOf(app).push(wheelDepth(event) / 1e3);
+    },
+    { passive: false },
+  );
   push.addEventListener("contextmenu", (event) => event.preventDefault()); // of a finger that stays
   push.addEventListener("keydown", (event) => {
     if (event.key !== " " && event.key !== "Enter") return;

@@ -1,3 +1,5 @@
+import { wheelDepth, wheelPixels } from "../hand/wheel.ts";
+
 /** Actions of a pointer over the view. Positions: CSS pixels from the view's upper left corner as a gesture begins. */
 export interface GestureHandler {
   /**
@@ -17,7 +19,6 @@ export interface GestureHandler {
 }
 
 type Mode = "none" | "needle" | "orbit" | "pan" | "pinch";
-const MM_PER_WHEEL_PIXEL = 0.004;
 
 /**
  * One finger or the left button moves the needle along its line; with Shift, also sideways. The right button or two
@@ -89,9 +90,9 @@ export function gestures(canvas: HTMLElement, handler: GestureHandler): { cancel
     "wheel",
     (event) => {
       event.preventDefault();
-      const pixels = event.deltaMode === 1 ? event.deltaY * 18 : event.deltaY;
+      const pixels = wheelPixels(event);
       if (event.altKey) handler.plunge(pixels);
-      else if (event.ctrlKey || event.metaKey || !handler.push(pixels * MM_PER_WHEEL_PIXEL)) {
+      else if (event.ctrlKey || event.metaKey || !handler.push(wheelDepth(event))) {
         handler.zoom(Math.exp(-pixels * (event.ctrlKey ? 0.006 : 0.0012)));
       }
     },
