@@ -112,12 +112,12 @@ export const exercisesPanel: Panel = (host, app) => {
     running = status?.running ?? false;
     if (begun && !of(status!.exercise)) void readList(); // an exercise that another page tries before it is saved
     if (!ended || !status.result) return;
-    await past.show(person);
     try {
       open(await app.api.json<Result>(resultPath(status.result)));
     } catch (error) {
       app.notify(`Cannot load the result: ${errorText(error)}`);
     }
+    await past.show(person);
   });
 };
 

@@ -7,6 +7,7 @@ import { colourOf, type Theme } from "./kit/theme.ts";
 const SIZE = 11.5; // px
 const ROW = 14; // px
 const ASIDE = 8; // px from a curve's end to its name
+const ABOVE = 9; // px from it up to the name's middle: a curve through the name would strike it out
 
 /** The end of a curve, px, and its name. */
 export interface End {
@@ -35,14 +36,10 @@ export function drawEnds(pen: Pen, pane: Pane, all: readonly End[], theme: Theme
   });
   const right = ends.map(({ text }, i) => left[i]! + textWidth(text, SIZE));
   const meet = (i: number, j: number): boolean => left[i]! < right[j]! && left[j]! < right[i]!;
-  const middles = apart(
-    ends.map(({ y }) => y),
-    ROW,
-    pane.bottom - ROW / 2,
-    meet,
-  );
+  const wanted = ends.map(({ y }) => Math.max(pane.top + ROW / 2, y - ABOVE));
+  const middles = apart(wanted, ROW, pane.bottom - ROW / 2, meet);
   ends.forEach(({ x, y, colour }, i) => {
-    if (Math.abs(middles[i]! - y) < ROW / 2) return;
+    if (Math.abs(middles[i]! - wanted[i]!) < ROW / 2) return;
     const side = left[i]! > x ? left[i]! : right[i]!;
     pen.segment(x, y, side, middles[i]!, { colour, width: 1 });
   });

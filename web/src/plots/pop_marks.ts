@@ -37,8 +37,9 @@ export function drawPops(pen: Pen, pane: Pane, picture: ForceDepthPicture, theme
     for (const pop of pops) drawDrop(pen, pane, pane.x.px(pop.depth * MM), pop, theme);
     labelsThatFit(labels, pane.left, pane.left + pane.width).forEach((fits, i) => {
       const { x, text } = labels[i]!;
-      const middle = pane.y.px((Math.abs(pops[i]!.force_before) + Math.abs(pops[i]!.force_after)) / 2);
-      if (fits) pen.text(x, middle, text, { colour: theme.text, size: 11.5, bold: true, halo: theme.panel });
+      // Beside the upper end: the names of the curves are at the forces after the pops.
+      const upper = Math.max(pane.top + 8, pane.y.px(Math.abs(pops[i]!.force_before)));
+      if (fits) pen.text(x, upper, text, { colour: theme.text, size: 11.5, bold: true, halo: theme.panel });
     });
   });
 }

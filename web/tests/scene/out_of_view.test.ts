@@ -17,5 +17,6 @@ it("a point is out of view beyond the border and behind the camera", () => {
 it("a point under the toolbar is out of view", () => {
   const high = new Vector3(0, 5, 0); // a quarter of the height from the upper border
   expect(outOfView(high, camera, 0.2)).toBe(false);
+  expect(outOfView(high, camera, 0.24)).toBe(true); // half of what is around it is under the toolbar
   expect(outOfView(high, camera, 0.3)).toBe(true);
 });
