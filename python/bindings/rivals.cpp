@@ -11,11 +11,12 @@ namespace {
 /// Sets the numbers of a rival. Throws ConfigurationError with all problems.
 AnyRival made(const std::string& name, const nb::dict& numbers) {
   std::string known;
+  nb::list names;
   const auto add = [&](const char* one) { known += std::string(known.empty() ? "" : ", ") + one; };
   std::optional<AnyRival> rival = AnyRival::named(name);
   if (!rival) {
-    AnyRival::for_each_kind([&](const auto& r) { add(r.name); });
-    raise_word("rival", name, ("must be one of " + known).c_str());
+    AnyRival::for_each_kind([&](const auto& r) { add(r.name), names.append(nb::str(r.name)); });
+    raise_word("rival", name, ("must be one of " + known + nearest(name, names)).c_str());
   }
   rival->visit([&](auto& run) {
     const auto all = run.rival.numbers();

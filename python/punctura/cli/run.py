@@ -113,7 +113,7 @@ def command(
         ),
     ] = None,
     rival: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option(
             "--rival",
             help="With --headless: the force model of another author instead of the scene's law (docs/rivals.md); its "
@@ -164,8 +164,9 @@ def command(
     second = SecondDevice(second_device) if second_device else None
     if second and second_direction is not None:
         second = second._replace(direction=_direction(second_direction))
-    rivals = [] if rival is None else rivals_of(rival)
-    wishes = Wishes(scene, device, duration, stands, scene_filter, _existing(processor), allowed, second, rivals)
+    wishes = Wishes(
+        scene, device, duration, stands, scene_filter, _existing(processor), allowed, second, rivals_of(rival)
+    )
     with ends_on_signals() as signals:
         try:
             with signals.raised():

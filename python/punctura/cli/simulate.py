@@ -25,7 +25,7 @@ def command(
     ],
     out: Annotated[Path, typer.Option("--out", help="Result file to write.", metavar="OUT.csv|.parquet")],
     rival: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option("--rival", help="A rival's name or a file of punctura rivals --out.", metavar="NAME|FILE"),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
@@ -35,7 +35,7 @@ def command(
     With --rival, a force model of another author takes the place of the scene's law, at the places of its membranes.
     """
     with progress_bar("simulate") as progress:
-        summary = simulate(scene, motion, out, progress, rivals=None if rival is None else rivals_of(rival))
+        summary = simulate(scene, motion, out, progress, rivals=rivals_of(rival) or None)
     for note in summary.notes:
         notice(f"note: {note}")
     typer.echo(json.dumps(asdict(summary), indent=2) if as_json else _in_words(summary))

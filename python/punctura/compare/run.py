@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from punctura import Scene, Ticks
 from punctura.events import Event, EventFinder
-from punctura.events.finder import recorded_ticks
+from punctura.events.finder import recorded_events
 from punctura.record import Recording, open_recording
 
 Array = npt.NDArray[np.float64]
@@ -40,6 +40,7 @@ class Run:
     thumb: Array = field(repr=False)  # the model's force of the thumb, N; positive if it pushes
     pressure: Array = field(repr=False)  # Pa
     plunger: Array = field(repr=False)  # m, from where it starts
+    has_law: bool = field(default=True, kw_only=True)  # of the scene; with a rival's force no pop is known
 
     @property
     def touch(self) -> int:
@@ -64,21 +65,17 @@ class Run:
 
 
 def recorded_run(recording: Recording | str | os.PathLike[str], name: str = "") -> Run:
-    """Reads a recording as a run. Raises RecordingError, ValueError if it has no ticks."""
+    """Reads a recording as a run; a rival's name stands behind its own.
+
+    Raises RecordingError, ValueError if it has no ticks.
+    """
     opened = recording if isinstance(recording, Recording) else open_recording(recording)
-    return _joined(name or opened.path.stem, opened.info.scene, _parts(opened))
+    rivals = " and ".join(rival.name for rival in opened.info.rivals)
+    named = f"{name or opened.path.stem}{rivals and f' ({rivals})'}"
+    return _joined(named, opened.info.scene, recorded_events(opened), has_law=not rivals)
 
 
-def _parts(recording: Recording) -> Iterator[tuple[Ticks, list[Event]]]:
-    scene = recording.info.scene
-    finder = EventFinder(scene, scene.servo.rate)
-    for ticks, new_scene in recorded_ticks(recording):
-        if new_scene is not None:
-            finder.change(new_scene)
-        yield ticks, finder.add(ticks)
-
-
-def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]]) -> Run:
+def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]], has_law: bool = True) -> Run:
     first = scene.membranes[0]
     normal = np.asarray(first.inward_normal, np.float64) / np.linalg.norm(first.inward_normal)
     members = len(scene.membranes)
@@ -117,7 +114,7 @@ def _joined(name: str, scene: Scene, parts: Iterable[tuple[Ticks, list[Event]]])
     tip, axis = np.concatenate(tips), np.concatenate(axes)
     steps = np.diff(tip, axis=0, prepend=tip[:1])
     travel = np.einsum("ij,ij->i", steps, axis)
-    return Run(name, scene, events, time, depth, travel, axis, *found)
+    return Run(name, scene, events, time, depth, travel, axis, *found, has_law=has_law)
 
 
 def resistance(force: Array, axis: Array) -> Array:

@@ -44,7 +44,7 @@ class Statistics(BaseModel):
     thumb_peak: Finite | None  # N, largest model force of the thumb on the plunger; None without a syringe, as the next
     pressure_peak: Finite | None  # Pa, largest pressure in the syringe
     plunger_travel: Finite | None  # m, deepest place of the plunger
-    drop: Finite  # N, the largest one at a pop; 0 without a pop
+    drop: Finite | None  # N, the largest one at a pop; 0 without a pop; None with the force of a rival
     overshoot: Finite | None  # m, the largest one; None without a pop
     pops: list[Pop]  # by time
 
@@ -69,7 +69,7 @@ def statistics(run: Run) -> Statistics:
         thumb_peak=_largest(run.thumb),
         pressure_peak=_largest(run.pressure),
         plunger_travel=_largest(run.plunger),
-        drop=max((pop.drop for pop in pops), default=0.0),
+        drop=max((pop.drop for pop in pops), default=0.0) if run.has_law else None,
         overshoot=max((pop.overshoot for pop in pops if pop.overshoot is not None), default=None),
         pops=pops,
     )

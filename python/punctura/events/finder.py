@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
@@ -104,20 +105,32 @@ def recorded_ticks(recording: Recording) -> Iterator[tuple[Ticks, Scene | None]]
             yield ticks_of(batch.slice(start)), None
 
 
+def recorded_events(recording: Recording, scene: Scene | None = None) -> Iterator[tuple[Ticks, list[Event]]]:
+    """Yields all ticks with the events in them. scene: replaces the recorded scene.
+
+    A pop is where the scene's law lets the tip through, so a run with the force of a rival has none.
+    """
+    first = scene or recording.info.scene
+    finder = EventFinder(first, first.servo.rate)
+    with_pops = not recording.info.rivals
+    for ticks, new_scene in recorded_ticks(recording):
+        if new_scene is not None:
+            finder.change(new_scene)
+        yield ticks, [event for event in finder.add(ticks) if with_pops or event.what != "pop"]
+
+
 def find_events(recording: Recording | Ticks, scene: Scene | None = None) -> list[Event]:
     """All events of a recording or of Ticks. scene: replaces the recorded scene; Ticks need one.
 
-    Raises RecordingError, TypeError for Ticks without a scene.
+    A recording with the force of a rival has no pops, as a warning says. Raises RecordingError, TypeError for Ticks
+    without a scene.
     """
     if isinstance(recording, Ticks):
         if scene is None:
             raise TypeError("find_events of Ticks needs the scene of the run: find_events(ticks, scene)")
         return EventFinder(scene).add(recording)
-    first = scene or recording.info.scene
-    finder = EventFinder(first, first.servo.rate)
-    events: list[Event] = []
-    for ticks, new_scene in recorded_ticks(recording):
-        if new_scene is not None:
-            finder.change(new_scene)
-        events += finder.add(ticks)
-    return events
+    if recording.info.rivals:
+        names = " and ".join(rival.name for rival in recording.info.rivals)
+        text = f"{recording.path}: the force is that of {names}, and pops follow from the scene's law: none is listed"
+        warnings.warn(text, UserWarning, stacklevel=2)
+    return [event for _, events in recorded_events(recording, scene) for event in events]

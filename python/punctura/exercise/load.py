@@ -107,9 +107,13 @@ def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: s
     """The result that the recorded attempt has in the studio. Raises RecordingError, ConfigurationError."""
     optional("pyarrow", "files", "the score of a recording")
     from punctura.events.finder import recorded_ticks
-    from punctura.record import open_recording
+    from punctura.record import RecordingError, open_recording
 
     opened = open_recording(recording)
+    if opened.info.rivals:
+        names = " and ".join(rival.name for rival in opened.info.rivals)
+        reason = "an exercise judges pops and forces of the scene's law; record an attempt without --rival"
+        raise RecordingError(f"{opened.path}: the force is that of {names}: {reason}")
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
     try:
         attempt = Attempt(wanted, opened.info.scene, opened.info.header.second_device is not None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,7 +90,9 @@ def compare_trace(
     wanted = [*known, PRINTED] if names is None else list(names)
     for name in wanted:
         if name not in known and name != PRINTED:
-            raise ConfigurationError([Problem("rival", name, f"must be one of {', '.join([PRINTED, *known])}")])
+            every = [PRINTED, *known]
+            near = "".join(f"; did you mean {one}?" for one in get_close_matches(name, every, 1, 0.5))
+            raise ConfigurationError([Problem("rival", name, f"must be one of {', '.join(every)}{near}")])
     if names is not None and PRINTED in names and needle is None:
         raise ConfigurationError([Problem("needle", "", "K06 needs the needle's diameter and tip angle")])
     trace = with_quiet_depth(trace)[0] if identified is None else identified.trace  # the same one for all models

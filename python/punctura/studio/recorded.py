@@ -13,8 +13,7 @@ from punctura import Phase, Scene
 from punctura._core import force_scale
 from punctura.compare.run import resistance
 from punctura.errors import ConfigurationError
-from punctura.events import EventFinder, find_events
-from punctura.events.finder import recorded_ticks
+from punctura.events.finder import recorded_events
 from punctura.exercise.depths import PARALLEL
 from punctura.exercise.ticks import Geometry, judged_depth
 from punctura.record import Recording
@@ -71,7 +70,7 @@ def overview(recording: Recording) -> RecordingOverview:
     view = scene_view(loaded, 0, info.scene.servo.rate, _scale(recording), _laws(loaded.scene, recording))
     return RecordingOverview(
         scene=view,
-        events=[MembraneEvent(**dict(event)) for event in find_events(recording)],
+        events=[MembraneEvent(**dict(one)) for _, found in recorded_events(recording) for one in found],
         ticks=recording.rows,
         first_tick=max(0, recording.summary.first_tick),
     )
@@ -187,14 +186,10 @@ def _rounded(values: Array, digits: int) -> list[float | None]:
 
 def _rows(recording: Recording, start: float, judge: _Judge) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
     """Batches (n, 3) of time, depth and force, and the rows that end a bucket: at and before an event, and at gaps."""
-    scene = recording.info.scene
-    finder = EventFinder(scene, scene.servo.rate)
     events = 0
     next_tick: int | None = None
-    for columns, new_scene in recorded_ticks(recording):
-        if new_scene is not None:
-            finder.change(new_scene)
-        found = [event.tick for event in finder.add(columns)][: MOST_EVENTS - events]
+    for columns, found_here in recorded_events(recording):
+        found = [event.tick for event in found_here][: MOST_EVENTS - events]
         events += len(found)
         tick = columns["tick"].astype(np.int64)
         rows = np.stack([columns["time"].astype(np.float64), *judge.drawn(columns)], axis=1)

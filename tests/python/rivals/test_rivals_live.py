@@ -6,13 +6,17 @@ import numpy as np
 import punctura as pn
 import pytest
 from punctura._core import ForceLimits, ServoLoop, SimulatedDevice
+from punctura.compare import compare, recorded_run
+from punctura.events import find_events
+from punctura.exercise import score
 from punctura.live.run_notes import run_notes
 from punctura.record import Recorder, RecordingError, open_recording, replay
 from punctura.record.header import RecordingInfo
-from punctura.rivals import Layer, Rival, RivalInsertion, save_layers
+from punctura.rivals import Layer, Rival, RivalInsertion, compare_trace, save_layers
 from punctura.scene import DisplaySettings
 from punctura.simulation import Strokes
 from punctura.studio.recorded import overview
+from traces import trace
 from waiting import wait_until
 
 SCENE = pn.load_scene("k06-fig12")
@@ -110,7 +114,9 @@ def test_the_command_runs_a_rival_by_name_and_from_a_file(punctura, tmp_path):
     ("wrong", "why"),
     [
         (["--headless", "--rival", "newton"], "must be one of"),
-        (["--headless", "--rival", ""], "not a rival file"),
+        (["--headless", "--rival", "kelvin-voight"], "sign_of_velocity; did you mean kelvin_voigt?"),
+        (["--headless", "--rival", ""], "rival = '': must be one of okamura"),
+        (["--headless", "--rival", "dahl", "--rival", "okamura"], "is given 2 times: a run has the force of one model"),
         (["--headless", "--rival", "fits/dahl.json"], "there is no such file"),
         (["--headless", "--rival", __file__], "is no JSON, as punctura rivals --out writes it"),
         (["--rival", "dahl"], "needs --headless"),
@@ -120,3 +126,26 @@ def test_a_wrong_rival_is_refused_before_the_run(punctura, wrong, why):
     done = punctura("run", "k06-fig12", "--device", "simulated", *wrong)
     assert done.status == 2
     assert why in " ".join(done.stderr.replace("│", " ").split())
+
+
+def test_a_rivals_recording_has_no_pops_of_the_scenes_law_and_no_score(tmp_path):
+    felt(tmp_path / "run.parquet", [Rival("kelvin_voigt")])
+    recording = open_recording(tmp_path / "run.parquet")
+    with pytest.warns(UserWarning, match="the force is that of kelvin_voigt, and pops follow from the scene's law"):
+        events = find_events(recording)
+    assert {event.what for event in events} == {"touch", "out"}
+    assert {event.what for event in overview(recording).events} == {"touch", "out"}
+    run = recorded_run(recording)
+    (numbers,) = compare([run]).statistics
+    assert numbers.name == "run (kelvin_voigt)" and numbers.pops == [] and numbers.drop is None
+    with pytest.raises(RecordingError, match="the force is that of kelvin_voigt: an exercise judges"):
+        score(recording.path, "venipuncture")
+    felt(tmp_path / "own.parquet", [])
+    own = open_recording(tmp_path / "own.parquet")
+    assert "pop" in {event.what for event in find_events(own)}
+    assert compare([recorded_run(own)]).statistics[0].drop > 0
+
+
+def test_a_misspelt_model_to_compare_is_answered_with_a_near_one():
+    with pytest.raises(pn.ConfigurationError, match="did you mean kelvin_voigt"):
+        compare_trace(trace(), ["kelvin-voight"])
