@@ -89,7 +89,7 @@ def _run(
             finally:
                 loop.stop()
                 summary.add(listener.read())
-                summary.finish(loop, thumb)
+                summary.finish(loop, thumb, None if signals.number else duration)
                 if finish:
                     finish()
 
