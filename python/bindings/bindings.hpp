@@ -9,7 +9,9 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -262,6 +264,10 @@ void def_init(nb::class_<T>& cls, T (*make)(A...), const Extra&... extra) {
 /// Emits a UserWarning if a number lies outside the usual range of its field in SI units, but inside it in mm, um, N/mm
 /// or mN: that unit was most likely meant. path: "membrane.stiffness" or "membrane[0].stiffness".
 void warn_unusual(const std::string& path, double value);
+/// The number of a list of a scene, such as "profile[].depth", that is farthest from 0, and what to write instead; or
+/// nothing. Small numbers beside it are usual. size: of the unit of `written`, SI.
+std::optional<std::pair<double, std::string>> unusual_list(std::string_view column, const std::vector<double>& written,
+                                                           double size = 1);
 /// Sets whether warn_unusual warns in this thread; it does at first. Returns the value before.
 bool set_unusual_warnings(bool on);
 

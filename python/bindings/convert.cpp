@@ -202,6 +202,22 @@ thread_local bool unusual_warnings = true;
 
 bool set_unusual_warnings(bool on) { return std::exchange(unusual_warnings, on); }
 
+std::optional<std::pair<double, std::string>> unusual_list(std::string_view column, const std::vector<double>& written,
+                                                           double size) {
+  const bool depth = column == "profile[].depth", opening = column == "grip_table[].opening";
+  if (written.empty() || (!depth && !opening && column.substr(0, 9) != "profile[]" && column != "grip_table[].grip"))
+    return {};
+  const double farthest =
+      *std::max_element(written.begin(), written.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const bool is_long = depth && std::abs(farthest) * size > 1e-3;  // deep as a wall can be, short as a needle is thin
+  const std::string advice = unusual(is_long            ? "membrane[0].thickness"
+                                     : depth || opening ? "needle.diameter"
+                                                        : "membrane[0].precompression",
+                                     farthest, size);
+  if (advice.empty()) return {};
+  return std::pair{farthest, advice};
+}
+
 void warn_unusual(const std::string& path, double value) {
   if (!unusual_warnings) return;
   const std::string advice = unusual(path, value);

@@ -121,6 +121,13 @@ GivenProfileLaw make_profile_law(std::vector<double> depth, std::vector<double> 
   const auto path_of = [](std::size_t i, const std::string& field) { return field + "[" + std::to_string(i) + "]"; };
   check_profile(knots, "depth", path_of, problems);
   raise_if(problems);
+  for (const auto& [name, unit, values] :
+       {std::tuple{"depth", "m", &depth}, {"lower", "N", &lower}, {"upper", "N", &upper}})
+    if (const auto found = unusual_list(std::string("profile[].") + name, *values)) {
+      const std::string text = std::string(name) + " has " + decimal_text(found->first, 6) + " " + unit +
+                               ", which is unusual. " + found->second + ": depths are in m, forces in N";
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw nb::python_error();
+    }
   return {ProfileLaw(Profile(knots), thickness, std::cos(obliquity)), depth, lower, upper, obliquity};
 }
 

@@ -189,6 +189,14 @@ void bind_scene(nb::module_& m) {
            "ConfigurationError or TypeError.");
 
   m.def(
+      "unusual_list",
+      [](const std::string& column, const std::vector<double>& written, double size) {
+        return unusual_list(column, written, size);
+      },
+      nb::arg("column"), nb::arg("written"), nb::arg("size") = 1.0,
+      "The number of a list that is probably in another unit, and what to write instead; None if there is none.\n\n"
+      "column: of scene_keys(), such as profile[].depth. size: of the unit of `written`, SI.");
+  m.def(
       "unusual", [](const std::string& path, double written, double size) { return unusual(path, written, size); },
       nb::arg("path"), nb::arg("written"), nb::arg("size"),
       "What to write instead of a number that is off by a factor of 1,000; empty if it is not. written: in a unit of\n"

@@ -12,6 +12,12 @@ from punctura.trace import Segments, Trace
 
 # What shows a parameter: (what the trace must lack for this advice, advice). The first one that fits is given.
 THROUGH = ("pop", "insert until the tip is through")
+DEEP = 2.0  # lengths of the tip behind the contact: there the tip is through, whether the force has dropped or not
+NEVER = (
+    "the needle went {:.2g} times the length of its tip behind the contact, and the force never dropped. If the wall "
+    "is not as thick as that, it has another law, and a deeper insertion tells no more: compare punctura rivals, or "
+    "give the wall a measured profile (docs/measured-tissue.md)"
+)
 WITHDRAWAL = ("withdrawal", "record the withdrawal too: it shows the friction without the tip")
 BEFORE = ("air", "begin well before contact")
 AGAIN = ("second", "insert a second time at the same place")
@@ -43,6 +49,7 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "offset": (BEFORE,),
     "lag": (QUICK,),
     "delay": (QUICK,),
+    "play": (("", "turn a second time inside the tissue, at another speed"),),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
@@ -61,7 +68,7 @@ def verdicts(
     fit: of all samples, or of the thinned ones, for the noise; air: of the same samples. explained: False if it is said
     that it is not. whitened: slow noise is part of the last fit.
     """
-    unknown = _not_identifiable(estimates, trace, segments) if explained else _no_bounds(estimates)
+    unknown = _not_identifiable(estimates, trace, segments, fit) if explained else _no_bounds(estimates)
     return (*_springs(fit), *unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
 
 
@@ -99,12 +106,19 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
         )
 
 
-def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments) -> Iterator[str]:
+def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> Iterator[str]:
     has = _parts(trace, segments, sum(kind_of(estimate.name) == "surface" for estimate in estimates))
+    needle = fit.parameters.needle
+    tip = needle.diameter / float(np.tan(needle.tip_angle))
+    begin = trace.depth[0 if segments.contact is None else segments.contact]
+    lengths = float(trace.depth.max() - begin) / tip
     for estimate in estimates:
         if not estimate.identifiable:
             known = _EXPERIMENTS.get(kind_of(estimate.name), ())
-            advice = next(text for lacking, text in (*known, MORE) if lacking not in has)
+            asked, advice = next((lacking, text) for lacking, text in (*known, MORE) if lacking not in has)
+            if asked == "pop" and lengths >= DEEP:
+                others = ((lacking, text) for lacking, text in (*known, MORE) if lacking not in (*has, "pop"))
+                advice = next(others)[1] if segments.pops else NEVER.format(lengths)
             yield f"{estimate.name} is not identifiable from this trace: {advice}."
 
 

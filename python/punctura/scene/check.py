@@ -179,3 +179,18 @@ def _sentences(data: Mapping[str, object], lines: Mapping[Location, int], source
             head = f"[[{table}]]" if numbers else f"[{table}]"
             where = f"line {line}: {head} {key}" if line else key_path
             yield f"{source}{where} = {written} is unusual. {advice}"
+    yield from _list_sentences(data, lines, source)
+
+
+def _list_sentences(data: Mapping[str, object], lines: Mapping[Location, int], source: str) -> Iterator[str]:
+    """The same for the lists of a membrane, a profile or a grip table: for one number of each."""
+    membranes = data.get("membrane")
+    for i, membrane in enumerate(membranes if isinstance(membranes, list) else []):
+        for name, columns in ROWS["membrane"].items():
+            for key, column in columns.items():
+                written = [float(number) for number in membrane.get(key) or ()]
+                found = _core.unusual_list(f"{name}[].{column}", written, float(split_key(key)[1].si))
+                if found:
+                    line = lines.get(("membrane", i, key))
+                    where = f"line {line}: [[membrane]] {key}" if line else f"membrane[{i}].{key}"
+                    yield f"{source}{where} has {found[0]:g}, which is unusual. {found[1]}"

@@ -170,5 +170,5 @@ def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
         text = "friction and grip cannot be told apart; record the withdrawal, too"
         yield Finding("no_withdrawal", text)
     if not segments.pops:
-        text = "the force never drops while the needle goes in; go deeper, until the tip is through"
+        text = "the force never drops while the needle goes in; if the tip is not through the wall yet, go deeper"
         yield Finding("no_pop", text)

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import numpy as np
+import punctura as pn
 import pytest
 from punctura.identify.air_noise import AirNoise
 from punctura.identify.causes import both_ways, way_out
@@ -239,3 +240,15 @@ def test_no_experiment_is_advised_for_a_parameter_of_a_model_that_does_not_expla
     made = trace(noise=8e-3)
     sentence = of(made, unknown("relaxation_1_time"), unknown("membrane[0].friction"), explained=False)[0]
     assert "relaxation_1_time, membrane[0].friction" in sentence and "rest for" not in sentence
+
+
+@pytest.mark.parametrize(("deepest", "advice"), [(7e-3, "insert until the tip is through"), (15e-3, "another law")])
+def test_a_wall_that_never_lets_go_is_not_told_to_be_gone_through(deepest, advice):
+    time, depth = motion(deepest=deepest)
+    wall = pn.ProfileLaw([0, 10e-3], [-0.1, -0.6], [0.05, 0.2], 0.5e-3)
+    force = -pn.Proxy1d(wall, pn.Coupling(4000, 1.0), 1 / RATE).run(depth - 5e-3).force
+    made = Trace(depth, force + 5e-3 * np.random.default_rng(1).normal(size=len(depth)), time)
+    segments, unknown = segment(made), [Estimate("membrane[0].stiffness", 400.0, None, None, "N/m")]
+    said = verdicts(unknown, made, segments, fitted(made), AirNoise(made, segments))
+    (told,) = [one for one in said if "stiffness" in one]
+    assert advice in told and ("3.5 times the length of its tip" in told) == (deepest == 15e-3)

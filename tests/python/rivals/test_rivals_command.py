@@ -61,4 +61,5 @@ def test_an_output_that_cannot_be_written_is_told_before_the_fits(punctura, need
 
 def test_a_trace_without_a_pop_is_told_so_once(tmp_path):
     found = [str(one) for one in read_trace(text(tmp_path)).findings if one.kind == "no_pop"]
-    assert found == ["no pop: the force never drops while the needle goes in; go deeper, until the tip is through"]
+    advice = "if the tip is not through the wall yet, go deeper"
+    assert found == [f"no pop: the force never drops while the needle goes in; {advice}"]

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import punctura
 import pytest
-from punctura import load_scene, scene_names
+from punctura import ProfileLaw, load_scene, scene_names
+from punctura.scene import scene_text
 from punctura.scene.check import UnusualWarning
 from punctura.studio.loaded import from_name, from_tables
 
@@ -93,3 +94,42 @@ def test_the_studio_knows_it_of_files_and_of_edited_tables(tmp_path, sound_text)
     loaded = from_name(str(tmp_path / "a.toml"))
     assert "line 5: [needle] diameter_mm = 1080" in loaded.unusual[0]
     assert from_tables(loaded.tables()).unusual[0].startswith("needle.diameter_mm = 1080.0 is unusual.")
+
+
+PROFILE = """
+profile_depth_mm = [0.0, 0.001, 4.0]
+profile_lower_N = [0.0, -0.00005, -0.4]
+profile_upper_N = [0.0, 0.05, 0.1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("given", "instead", "said"),
+    [
+        ("[0.0, 0.001, 4.0]", "[0.0, 1.0, 4000.0]",
+         "profile_depth_mm has 4000, which is unusual. If you meant 4000 um, write 4"),
+        ("[0.0, 0.001, 4.0]", "[0.0, 0.001, 0.004]",
+         "profile_depth_mm has 0.004, which is unusual. If you meant 0.004 m, write 4"),
+        ("[0.0, -0.00005, -0.4]", "[0.0, -300.0, -400.0]",
+         "profile_lower_N has -400, which is unusual. If you meant -400 mN, write -0.4"),
+    ],
+)  # fmt: skip
+def test_a_profile_in_another_unit_is_named_once(tmp_path, given, instead, said):
+    text = scene_text(load_scene("k06-fig10"))
+    path = tmp_path / "profile.toml"
+    path.write_text(text.rstrip() + PROFILE, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        load_scene(path)
+    path.write_text(text.rstrip() + PROFILE.replace(given, instead), encoding="utf-8")
+    with pytest.warns(UnusualWarning) as caught:
+        load_scene(path)
+    (note,) = [str(one.message) for one in caught]
+    assert ": [[membrane]] profile_" in note and note.endswith(said)
+
+
+def test_a_profile_law_in_another_unit_is_named():
+    with pytest.warns(UserWarning, match=r"depth has 4 m, which is unusual. If you meant 4 mm, write 0.004"):
+        ProfileLaw([0, 4], [0, -0.4], [0, 0.1])
+    with pytest.warns(UserWarning, match=r"lower has -400 N, which is unusual. If you meant -400 mN, write -0.4"):
+        ProfileLaw([0, 4e-3], [0, -400], [0, 0.1])
