@@ -16,18 +16,21 @@ Option = Annotated[
     list[str] | None,
     typer.Option(
         "--rig",
-        help="What is known of the sensors: depth_noise_um=10, lag_ms=20+-2, delay_ms=20 (0: none). Else the trace "
-        "tells.",
+        help="What is known of the sensors: depth_noise_um=10, lag_ms=20+-2, delay_ms=20, play_um=50 (0: none). Else "
+        "the trace tells.",
         metavar="NAME=VALUE",
     ),
 ]
-_STATED = {"depth_noise_um": ("depth_noise", 1e-6), "lag_ms": ("lag", 1e-3), "delay_ms": ("delay", 1e-3)}
+_STATED = {
+    "depth_noise_um": ("depth_noise", 1e-6), "lag_ms": ("lag", 1e-3), "delay_ms": ("delay", 1e-3),
+    "play_um": ("play", 1e-6),
+}  # fmt: skip
 _SIGN = "\u00b1", "+-"
 _EXAMPLE = "depth_noise_um=10 or lag_ms=20+-2"
 _TOLERANCES = {
     "diameter_mm": ("diameter_tolerance", 1e-3), "tip_angle_rad": ("tip_angle_tolerance", 1.0),
     "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)), "lag_ms": ("lag_tolerance", 1e-3),
-    "delay_ms": ("delay_tolerance", 1e-3),
+    "delay_ms": ("delay_tolerance", 1e-3), "play_um": ("play_tolerance", 1e-6),
 }  # fmt: skip
 
 

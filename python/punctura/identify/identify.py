@@ -17,7 +17,7 @@ from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.intervals import Estimate, estimates
-from punctura.identify.late_sensor import late_words
+from punctura.identify.late_sensor import late_words, not_told_apart
 from punctura.identify.model import Model
 from punctura.identify.moves import with_contacts_moved, with_pops_moved
 from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
@@ -185,6 +185,7 @@ def _identified(
         *smeared_words(given, trace),
         *noise_not_used(trace, rig.depth_noise),
         *late_words(late, trace, rig),
+        *not_told_apart(choice.search, choice.current),
         *advice,
     )
     advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice)

@@ -1,4 +1,7 @@
-"""Whether a trace shows that its sensor is late: K06 is fitted with a lag and a delay before the tissue is blamed."""
+"""Whether a trace shows that its sensor is late, or its drive has play, before the tissue is blamed for it.
+
+K06 is fitted with a lag, a delay, and a play. A delay moves the force by a time, and a play by a way, at each turn.
+"""
 
 from __future__ import annotations
 
@@ -19,32 +22,43 @@ from punctura.trace import Trace
 
 Array = NDArray[np.float64]
 
-TYPICAL = 5e-3, 20e-3  # s, where a search begins
-BEGINNINGS = (5e-3, 1.0), (20e-3, 1.0), (20e-3, 2.0), (20e-3, 4.0)  # s, and factors of the spring, of linear models
+TYPICAL = {"lag": (5e-3, 20e-3), "delay": (5e-3, 20e-3), "play": (20e-6, 80e-6)}  # s, m, where a search begins
+BEGINNINGS = (0, 1.0), (1, 1.0), (1, 2.0), (1, 4.0)  # which of these, and factors of the spring, of linear models
 HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
 
 
 def with_late_sensor(search: Search, current: Candidate) -> Candidate:
-    """The current model with a lag, a delay or both of them, if the rule prefers it."""
-    free = [name for name in LATE if name not in search.stated and name not in current.model.late]
-    if search.ended or search.trace.time is None or not free or not _may_be_late(current, free):
+    """The current model with a lag, a delay, both of them, or a play, if the rule prefers it."""
+    known = (*search.stated, *current.model.late)
+    free = [name for name in LATE if name not in known and _told(search, name)]
+    if search.ended or not free or not _may_be_late(current, free):
         return current
     best = current
-    for names in ((free[0],), (free[-1],), tuple(free)):
+    timed = tuple(name for name in free if name != "play")
+    for names in dict.fromkeys([*((name,) for name in timed), timed, tuple(free[len(timed) :])]):
         model = replace(current.model, late=(*current.model.late, *names))
-        if any(one.model == model for one in search.tried):
+        if not names or any(one.model == model for one in search.tried):
             continue
-        starts = [Start(free.parameters(u)) for free, u in (_late(best, names, late) for late in TYPICAL)]
+        starts = [Start(free.parameters(u)) for free, u in (_late(best, names, i) for i in (0, 1))]
         found = search.fitted(" and ".join(names), model, starts)
-        if found is None or max(abs(found.fit.parameters.late[LATE.index(name)]) for name in names) > HALT * LATEST:
+        if found is None or any(abs(found.fit.parameters.get(name)) > HALT * LATEST[name] for name in names):
             continue
         if search.rule.prefers(found, best):
             best = found
     return best
 
 
+def _told(search: Search, name: str) -> bool:
+    """Whether the trace can show it: what is late needs a time, a play a turn."""
+    return (
+        any(stroke.kind == "out" for stroke in search.segments.strokes)
+        if name == "play"
+        else (search.trace.time is not None)
+    )
+
+
 def without_late_sensor(search: Search, current: Candidate) -> Candidate:
-    """The current model without a lag or a delay that is not worth it."""
+    """The current model without a lag, a delay or a play that is not worth it."""
     for name in current.model.late:
         late = tuple(one for one in current.model.late if one != name)
         start = Start(current.fit.parameters)
@@ -54,45 +68,72 @@ def without_late_sensor(search: Search, current: Candidate) -> Candidate:
     return current
 
 
+TIMES = {"delay": "play", "play": "delay"}  # one by the way and one by the time, which a turn alone tells apart
+
+
+def not_told_apart(search: Search, current: Candidate) -> Iterator[str]:
+    """A sentence if a delay explains the trace as well as the play that was found, or the other way round."""
+    for name in current.model.late:
+        late = tuple(TIMES.get(one, one) if one == name else one for one in current.model.late)
+        wanted = replace(current.model, late=late)
+        others = [one for one in search.tried if one.model == wanted and name in TIMES]
+        effective = current.effective
+        if any(one.worth(effective).bic - current.worth(effective).bic < STRONG for one in others):
+            unit = "um" if name == "delay" else "ms"
+            yield (
+                f"The trace cannot tell the {name} from a {TIMES[name]}, which explains it as well. The intervals are "
+                "those of the first. To tell: insert at another speed, or turn back and forth inside the tissue; the "
+                "way of a play does not depend on the speed. If the rig has only the first, state that "
+                f"(--rig {TIMES[name]}_{unit}=0)."
+            )
+
+
 def late_words(found: Mapping[str, Estimate], trace: Trace, rig: Rig) -> Iterator[str]:
-    """A sentence for each lag and delay that was found, and one if stated ones could not be used."""
-    if trace.time is None and any(rig.late.values()):
+    """A sentence for each lag, delay and play that was found, and one if stated ones could not be used."""
+    if trace.time is None and (rig.lag or rig.delay):
         yield "The stated lag or delay of the sensor is not taken into account: the trace has no time. Record it."
     for name, one in found.items():
+        if name == "play":
+            yield (
+                f"The depth has play, as the drive of a rig has: where it turns, the needle stays for {_of(one)}. The "
+                "fit takes it into account. If the rig has none, state it (--rig play_um=0)."
+            )
+            continue
         late = one.value > 0
         who = f"The measured {'force' if late else 'depth'} comes late"
-        how = f"as behind a filter with a time constant of {_ms(one)}" if name == "lag" else f"by {_ms(one)}"
+        how = f"as behind a filter with a time constant of {_of(one)}" if name == "lag" else f"by {_of(one)}"
         yield (
             f"{who}, {how}. The fit takes it into account. If the rig has no such {name}, state it (--rig {name}_ms=0)."
         )
 
 
-def _ms(one: Estimate) -> str:
-    sign = 1e3 if one.value > 0 else -1e3
+def _of(one: Estimate) -> str:
+    unit, size = ("um", 1e6) if one.unit == "m" else ("ms", 1e3)
+    sign = size if one.value > 0 else -size
     bounds = (one.low, one.high) if one.value > 0 else (one.high, one.low)
     low, high = ("?" if bound is None else f"{sign * bound:.3g}" for bound in bounds)
-    return f"{sign * one.value:.3g} ms [{low}, {high}]"
+    return f"{sign * one.value:.3g} {unit} [{low}, {high}]"
 
 
-def _late(one: Candidate, names: Sequence[str], late: float) -> tuple[Free, Array]:
-    """Coordinates with a lag or a delay more, of so many s if it is 0: pops are seen where they were."""
+def _late(one: Candidate, names: Sequence[str], which: int) -> tuple[Free, Array]:
+    """Coordinates with these more, with the first or second of TYPICAL if it is 0: pops are seen where they were."""
     fit = one.fit
     free = fit.misfit.free([*one.model.names, *(name for name in names if name not in one.model.late)], fit.parameters)
     u = free.coordinates(fit.parameters)
     added = [free.names.index(name) for name in names]
-    u[added] = np.where(u[added] == 0, late, u[added])
+    u[added] = np.where(u[added] == 0, [TYPICAL[name][which] for name in names], u[added])
     return free, u
 
 
 def _may_be_late(current: Candidate, names: Sequence[str]) -> bool:
-    """Whether a linear model that begins late gains enough with a lag or a delay, or a fit is not worth it.
+    """Whether a linear model that begins late gains enough with one of these, or a fit is not worth it.
 
     A soft spring hides most of what is late, so it also begins with stiffer ones: the way there is not straight.
     """
     fit = current.fit
     least = fit.sse
-    for name, (late, stiffer) in product(names, BEGINNINGS):
-        free, u = _late(current, [name], late)
+    for name, (which, stiffer) in product(names, BEGINNINGS):
+        free, u = _late(current, [name], which)
         u[free.names.index("coupling_stiffness")] += np.log(stiffer)
         least = min(least, squares_beyond(fit.misfit, free, u))
     return worth_a_fit(fit, least, 1, STRONG)

@@ -65,11 +65,11 @@ def _ends(needle: Needle, rig: Rig) -> Iterator[tuple[Needle, Needle]]:
 
 
 def _late_ends(rig: Rig) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Lag and delay at both ends of their tolerances, s."""
+    """Lag and delay, s, and play, m, at both ends of their tolerances."""
     for name, value in rig.late.items():
         if tolerance := getattr(rig, f"{name}_tolerance"):
             low = value - tolerance
-            yield name, (max(low, 0.0) if name == "lag" else low, value + tolerance)
+            yield name, (low if name == "delay" else max(low, 0.0), value + tolerance)
 
 
 def _values_with(base: Parameters, of: Fit) -> Array:

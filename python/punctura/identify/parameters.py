@@ -15,10 +15,10 @@ Array = NDArray[np.float64]
 
 MEMBRANE = TraceModel.membrane_names
 COUPLING = TraceModel.coupling_names
-LATE = ("lag", "delay")  # s: of the force behind the depth
+LATE = ("lag", "delay", "play")  # s: of the force behind the depth; m: of the needle behind the drive, at a turn
 NUISANCE = ("offset", "drift", *LATE)  # of the sensor
-LATEST = 0.2  # s, of a lag or a delay: what is slower is no sensor
-UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s"}
+LATEST = {"lag": 0.2, "delay": 0.2, "play": 1e-3}  # s, m: what is more is no error of a rig
+UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s", "play": "m"}
 _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",
@@ -29,7 +29,7 @@ _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
     "cutting": (0.0, 1e4), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e7), "coupling_damping": (0.0, 1e3),
     "relaxation_1_stiffness": (0.0, 1e7), "relaxation_1_time": (1e-3, 1e3),
     "relaxation_2_stiffness": (0.0, 1e7), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
-    "lag": (0.0, LATEST), "delay": (-LATEST, LATEST),
+    "lag": (0.0, LATEST["lag"]), "delay": (-LATEST["delay"], LATEST["delay"]), "play": (0.0, LATEST["play"]),
 }  # fmt: skip
 
 
@@ -47,9 +47,10 @@ class Parameters:
         return float(self.vector()[indices(name, len(self.membranes))[0]])
 
     @property
-    def late(self) -> tuple[float, float]:
-        """Lag and delay of the sensor, s."""
-        return float(self.nuisance[2]), float(self.nuisance[3])
+    def late(self) -> tuple[float, float, float]:
+        """Lag and delay of the sensor, s, and play of the drive, m."""
+        lag, delay, play = self.nuisance[-len(LATE) :].tolist()
+        return lag, delay, play
 
     def vector(self) -> Array:
         """All values in one vector: coupling, membranes, nuisance."""
@@ -173,7 +174,7 @@ class Free:
         if self.walls:
             pops, _ = self._pops(self._without_pops(u), False)
             for k, wall in self.walls:
-                u[k] += pops[wall] + self._speeds[wall] * parameters.nuisance[-1]
+                u[k] += pops[wall] + self._speeds[wall] * parameters.late[1]
         return np.clip(u, self.low, self.high)
 
     def _without_pops(self, u: Array) -> Array:

@@ -19,12 +19,14 @@ class Rig:
     tip_angle_tolerance: float = 0.0  # rad
     lag: float | None = None  # s, time constant of the force sensor's filter
     delay: float | None = None  # s, of the force behind the depth; negative if the depth is late
+    play: float | None = None  # m, by which the needle stays behind where the drive turns
     lag_tolerance: float = 0.0  # s
     delay_tolerance: float = 0.0  # s
+    play_tolerance: float = 0.0  # m
 
     @property
     def late(self) -> dict[str, float]:
-        """What is stated of the parameters `lag` and `delay`, s."""
+        """What is stated of the parameters `lag` and `delay`, s, and `play`, m."""
         return {name: value for name in LATE if (value := getattr(self, name)) is not None}
 
     def values(self) -> tuple[RigValue, ...]:
@@ -34,21 +36,22 @@ class Rig:
                      for name, value in every.items() if value)  # fmt: skip
 
 
-_UNITS = {"lag": "s", "delay": "s", "diameter": "m", "tip_angle": "rad"}
+_UNITS = {"lag": "s", "delay": "s", "play": "m", "diameter": "m", "tip_angle": "rad"}
 UNKNOWN = Rig()
 
 
 def check(rig: Rig, needle: Needle) -> None:
     """Raises ConfigurationError with all that is wrong with a rig that has this needle."""
     size, angle = needle.diameter, needle.tip_angle
-    most = f"less than {LATEST:g} s"
-    beside = {name: LATEST if name in rig.late else math.ulp(0.0) for name in LATE}  # a tolerance needs a value
+    most = {name: f"less than {LATEST[name]:g} {_UNITS[name]}" for name in LATE}
+    beside = {name: LATEST[name] if name in rig.late else math.ulp(0.0) for name in LATE}  # a tolerance needs a value
     bounds = {
         "depth_noise": (0.0, math.inf, "a number of m, 0 or more"),
-        "lag": (0.0, LATEST, f"0 or more, and {most}"),
-        "delay": (-LATEST, LATEST, f"{most}, also if it is negative"),
+        **{name: (0.0, LATEST[name], f"0 or more, and {most[name]}") for name in ("lag", "play")},
+        "delay": (-LATEST["delay"], LATEST["delay"], f"{most['delay']}, also if it is negative"),
         **{
-            f"{name}_tolerance": (0.0, beside[name], f"0 without a {name}; else 0 or more, and {most}") for name in LATE
+            f"{name}_tolerance": (0.0, beside[name], f"0 without a {name}; else 0 or more, and {most[name]}")
+            for name in LATE
         },
         "diameter_tolerance": (0.0, size, f"0 or more, and less than the diameter, {size:.4g} m"),
         "tip_angle_tolerance": (

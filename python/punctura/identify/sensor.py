@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 
 FINE = 8  # steps of a filter from sample to sample
 SHIFT = 1e-5  # s, of a lag or a delay, for a derivative
+STEP = 1e-7  # m, the same of a play
 OUTSIDE, JUST, SLOWLY = 0.3, 1e-6, 1e-3  # m, m, m/s: from where the needle came to the first sample, and how fast
 BEYOND, LAST = 10.0, 5  # s; samples: at both ends a motion goes on as these samples show it
 
@@ -34,59 +35,84 @@ class _CameIn:
         return force[2:], columns[2:]
 
 
+def played(depth: Array, play: float) -> Array:
+    """The depth (n,), m, of a needle whose drive has play: it stays behind by so many m where the drive turns.
+
+    The measured depth is that of the needle on the first way in.
+    """
+    if play == 0:
+        return depth
+    found = np.empty(len(depth))
+    at = float(depth[0])
+    for i, driven in enumerate(depth.tolist()):
+        at = min(max(at, driven), driven + play)
+        found[i] = at
+    return found
+
+
 class SensedModel:
-    """The model's force along a trace, late as a lag and a delay make it, with derivatives.
+    """The model's force along a trace, late as a lag and a delay make it, behind a drive with play; with derivatives.
 
     A delay is one of the force behind the depth: the force of a sample belongs to the depth before it.
     """
 
     def __init__(self, needle: Needle, depth: Array, time: Array | None) -> None:
-        """depth, time: (n,), m and s. Without time, nothing is late."""
+        """depth, time: (n,), m and s. Without time, the force is not late."""
         self._needle, self._depth, self._time = needle, depth, time
         self._prompt = _CameIn(needle, depth, time)
-        self._moved: tuple[float, int, _CameIn] | None = None  # the delay, s, and the steps of the last such model
+        self._moved: tuple[float, int, float, _CameIn] | None = None  # delay, s, steps, and play, m, of the last one
         if time is not None:
             near = (0, LAST - 1), (-LAST, -1)
-            slopes = [(depth[j] - depth[i]) / (time[j] - time[i]) for i, j in near]
+            self._slopes = [(depth[j] - depth[i]) / (time[j] - time[i]) for i, j in near]
             self._times = np.concatenate(([time[0] - BEYOND], time, [time[-1] + BEYOND]))
-            ends = depth[0] - BEYOND * slopes[0], depth[-1] + BEYOND * slopes[1]
-            self._depths = np.concatenate(([ends[0]], depth, [ends[1]]))
 
     def forces(self, p: Parameters) -> Array:
         """The force at every sample (n,), N."""
-        lag, delay = p.late
-        if self._time is None or lag == delay == 0:
+        lag, delay, play = p.late
+        if self._time is None:
+            lag = delay = 0.0
+        if lag == delay == play == 0:
             return self._prompt.forces(p, False)[0]
-        return self._filtered(self._model(delay, lag).forces(p, False)[0], lag)
+        return self._filtered(self._model(delay, lag, play).forces(p, False)[0], lag)
 
     def jacobian(self, p: Parameters, kinds: Sequence[str], late: Sequence[str]) -> tuple[Array, Array]:
-        """Derivatives (n, q) by the q parameters of coupling and membranes, and those by lag and delay (n, 2).
+        """Derivatives (n, q) by the q parameters of coupling and membranes, and those by lag, delay and play (n, 3).
 
-        Only those by these kinds, and by these of lag and delay, are computed; others are 0.
+        Only those by these kinds, and by these of the latter, are computed; others are 0.
         """
         by_late = np.zeros((len(self._depth), len(LATE)))
-        lag, delay = p.late
-        if self._time is None or not (late or lag or delay):
+        lag, delay, play = p.late
+        if self._time is None:
+            lag, delay, late = 0.0, 0.0, [one for one in late if one == "play"]
+        if not (late or lag or delay or play):
             return self._prompt.forces(p, by=kinds)[1], by_late
-        force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0)).forces(p, by=kinds)
+        force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0), play).forces(p, by=kinds)
         if "lag" in late:
             low, high = max(lag - SHIFT, 0.0), lag + SHIFT
             by_late[:, 0] = (self._filtered(force, high) - self._filtered(force, low)) / (high - low)
         if "delay" in late:
             before, after = (self.forces(p.with_values({"delay": delay + shift})) for shift in (-SHIFT, SHIFT))
             by_late[:, 1] = (after - before) / (2 * SHIFT)
+        if "play" in late:
+            low, high = max(play - STEP, 0.0), play + STEP
+            before, after = (self.forces(p.with_values({"play": one})) for one in (low, high))
+            by_late[:, 2] = (after - before) / (high - low)
         known = np.flatnonzero(columns.any(axis=0))  # the rest is 0 behind the filter, too
         given = np.zeros((len(self._depth), columns.shape[1]))
         given[:, known] = self._filtered(columns[:, known], lag)
         return given, by_late
 
-    def _model(self, delay: float, lag: float) -> _CameIn:
+    def _model(self, delay: float, lag: float, play: float) -> _CameIn:
         """The model along the motion before the delay, in fine steps if a filter follows."""
         steps = FINE if lag > 0 else 1
-        if self._moved is None or self._moved[:2] != (delay, steps):
-            depth = np.interp(self._fine(steps) - delay, self._times, self._depths)
-            self._moved = delay, steps, _CameIn(self._needle, depth, self._fine(steps))
-        return self._moved[2]
+        if self._moved is None or self._moved[:3] != (delay, steps, play):
+            depth, times = played(self._depth, play), self._time
+            if times is not None and (delay or steps > 1):
+                times = self._fine(steps)
+                ends = depth[0] - BEYOND * self._slopes[0], depth[-1] + BEYOND * self._slopes[1]
+                depth = np.interp(times - delay, self._times, np.concatenate((ends[:1], depth, ends[1:])))
+            self._moved = delay, steps, play, _CameIn(self._needle, depth, times)
+        return self._moved[3]
 
     def _fine(self, steps: int) -> Array:
         """So many times, s, from sample to sample."""
