@@ -14,17 +14,48 @@ namespace punctura {
 /// The lower edge is <= the upper edge and <= 0 at every depth: a positive one would pull the needle in. Both edges are
 /// 0 in front of the first break and constant behind the last break. The first break is at the surface (depth 0) or
 /// deeper.
+///
+/// A law with memory may have pieces(cos_beta, memory) alone: Memory{} is an untouched membrane.
 template <typename L>
 concept Law = requires(const L law, typename L::Scalar q) {
-  typename L::Scalar;
   { law.pieces().band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
+} || requires(const L law, typename L::Scalar q, const typename L::Memory& memory) {
+  { law.pieces(q, memory).band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
 };
 
+namespace detail {
+template <Law L>
+struct GivenPieces {
+  using Type =
+      decltype(std::declval<const L&>().pieces(typename L::Scalar(1), std::declval<const typename L::Memory&>()));
+};
+template <Law L>
+  requires requires(const L& law) { law.pieces(); }
+struct GivenPieces<L> {
+  using Type = decltype(std::declval<const L&>().pieces());
+};
+}  // namespace detail
+template <Law L>
+using PiecesOf = std::remove_cvref_t<typename detail::GivenPieces<L>::Type>;
+
+/// The pieces of an untouched membrane for cos_beta. Without it: for an obliquity of the law's own, or along the
+/// normal.
+template <Law L, typename... Angle>
+constexpr decltype(auto) untouched_pieces(const L& law, Angle... cos_beta) noexcept {
+  if constexpr (requires { law.pieces(cos_beta...); })
+    return law.pieces(cos_beta...);
+  else if constexpr (sizeof...(Angle) == 0)
+    return law.pieces(typename L::Scalar(1), typename L::Memory{});
+  else
+    return law.pieces(cos_beta..., typename L::Memory{});
+}
 /// A law whose pieces depend on the obliquity of the needle at entry, K06 (17).
 template <typename L>
-concept ObliqueLaw = Law<L> && requires(const L law, typename L::Scalar cos_beta) {
-  { law.pieces(cos_beta) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
-};
+concept ObliqueLaw = Law<L> && (requires(const L law, typename L::Scalar cos_beta) {
+                       { law.pieces(cos_beta) } noexcept -> std::same_as<PiecesOf<L>>;
+                     } || requires(const L law, typename L::Scalar cos_beta, const typename L::Memory& memory) {
+                       { law.pieces(cos_beta, memory) } noexcept -> std::same_as<PiecesOf<L>>;
+                     });
 
 /// A law whose memory also changes with time, for example a hole that closes.
 ///
@@ -45,13 +76,13 @@ concept FeelsTime = requires(const L law, typename L::Memory& memory, typename L
 /// enters beside an old hole therefore finds the hole.
 template <typename L>
 concept LawWithMemory =
-    requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta, typename L::Scalar depth) {
+    Law<L> && requires(const L law, typename L::Memory& memory, typename L::Scalar cos_beta, typename L::Scalar depth) {
       requires std::is_trivially_copyable_v<typename L::Memory>;
       /// The proxy has reached this depth (m, along the needle; greater than 0). Returns true if the pieces change.
       requires FeelsTime<L> || requires {
         { law.advance(memory, depth) } noexcept -> std::same_as<bool>;
       };
-      { law.pieces(cos_beta, memory) } noexcept -> std::same_as<std::remove_cvref_t<decltype(law.pieces())>>;
+      { law.pieces(cos_beta, std::as_const(memory)) } noexcept -> std::same_as<PiecesOf<L>>;
     };
 
 /// The pieces for cos_beta. Without it, on a line: a law with an obliquity of its own has pieces(memory), any other law
@@ -95,10 +126,10 @@ concept HearsLeaving = LawWithMemory<L> && requires(const L law, typename L::Mem
 /// A law with memory that can bring its pieces up to date faster than pieces(). The memory has changed since
 /// pieces(), the angle has not.
 template <typename L>
-concept RefreshesPieces = LawWithMemory<L> && requires(const L law, const typename L::Memory& memory,
-                                                       std::remove_cvref_t<decltype(law.pieces())>& pieces) {
-  { law.refresh(pieces, memory) } noexcept;
-};
+concept RefreshesPieces =
+    LawWithMemory<L> && requires(const L law, const typename L::Memory& memory, PiecesOf<L>& pieces) {
+      { law.refresh(pieces, memory) } noexcept;
+    };
 
 /// A law for lanes. Some lanes may remember. It keeps the memory and the pieces of each lane itself: a lane that is
 /// in `lanes` has reached this depth, or has left the wall in front.
@@ -119,6 +150,28 @@ constexpr bool memory_is_whole =
                               requires { typename L::Memory; } || requires { &L::advance; })) &&
      (HearsLeaving<L> || !requires { &L::leave; }) && (RefreshesPieces<L> || !requires { &L::refresh; }));
 
+/// Whether the Memory of a law, if it has one, is plain numbers.
+template <typename L>
+concept PlainMemory = !requires { typename L::Memory; } ||
+                      (std::is_trivially_copyable_v<typename L::Memory> &&
+                       std::default_initializable<typename L::Memory> && std::copyable<typename L::Memory>);
+
+/// Stops the compiler at a law whose memory it could not keep, with the likely causes. Otherwise true.
+template <typename L>
+constexpr bool check_memory() noexcept {
+  static_assert(PlainMemory<L>,
+                "the Memory of the law must be plain numbers, which Memory{} sets and '=' copies: without a reference, "
+                "a const member, a std::string, a std::vector, and without a constructor that needs arguments, a copy "
+                "constructor, an assignment or a destructor of its own");
+  static_assert(!PlainMemory<L> || memory_is_whole<L>,
+                "a part of the law's memory is missing or has another form: struct Memory; "
+                "bool advance(Memory&, Scalar depth) const noexcept, or (Memory&, Scalar depth, Scalar dt); "
+                "pieces(Scalar cos_beta, const Memory&) const noexcept, of the same type as pieces(); and, where the "
+                "law has them, bool leave(Memory&) const noexcept and refresh(its pieces&, const Memory&) const "
+                "noexcept. Look for a const or noexcept that is missing, a result that is not bool, a private member");
+  return true;
+}
+
 struct NoMemory {};
 template <typename L>
 struct MemoryOf {
@@ -135,8 +188,5 @@ void describe_law(const auto& law, const auto& pieces, auto& parameters) {
   pieces.describe(parameters);
   if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
 }
-
-template <Law L>
-using PiecesOf = std::remove_cvref_t<decltype(std::declval<const L&>().pieces())>;
 
 }  // namespace punctura

@@ -20,7 +20,7 @@ inline constexpr Scalar grazing_cosine = Scalar(0.17364817766693034885);
 template <ObliqueLaw L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, Vector3<typename L::Scalar>>
 struct SpaceParams {
-  static_assert(memory_is_whole<L>, "the law has a part of a memory: see memory_is_whole");
+  static_assert(check_memory<L>());
   static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
                 "a law with memory works on one number; for lanes, see LanesThatRemember");
   using Vector = Vector3<typename L::Scalar>;
@@ -31,7 +31,7 @@ struct SpaceParams {
   C coupling;
 
   void describe(auto& parameters) const {
-    describe_law(law, law.pieces(typename L::Scalar(1)), parameters);
+    describe_law(law, untouched_pieces(law, typename L::Scalar(1)), parameters);
     parameters.fields(a, n);
     coupling.describe(parameters);
   }

@@ -69,7 +69,7 @@ class MixedPieces {
 /// The pieces are changed in place (refresh()) if each law with memory can do so.
 template <ObliqueLaw... Laws>
 class MixedLaw {
-  static_assert((memory_is_whole<Laws> && ...), "a law has a part of a memory: see memory_is_whole");
+  static_assert((check_memory<Laws>() && ...));
 
  public:
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
@@ -99,7 +99,7 @@ class MixedLaw {
   template <ObliqueLaw L>
     requires(std::same_as<L, Laws> || ...)
   constexpr MixedLaw(const L& law) noexcept : law_(law) {
-    visit([&]<std::size_t i>(const auto& one) { pieces_ = Pieces(std::in_place_index<i>, one.pieces()); });
+    visit([&]<std::size_t i>(const auto& one) { pieces_ = Pieces(std::in_place_index<i>, untouched_pieces(one)); });
   }
 
   constexpr const Pieces& pieces() const noexcept { return pieces_; }

@@ -14,14 +14,14 @@ namespace punctura {
 template <Law L, typename C = SampledCoupling<typename L::Scalar>>
   requires SampledCouplingOf<C, typename L::Scalar>
 struct LineParams {
-  static_assert(memory_is_whole<L>, "the law has a part of a memory: see memory_is_whole");
+  static_assert(check_memory<L>());
   static_assert(!(LawWithMemory<L> && Lanes<typename L::Scalar>),
                 "a law with memory works on one number, not on lanes");
   L law;
   C coupling;
 
   void describe(auto& parameters) const {
-    describe_law(law, law.pieces(), parameters);
+    describe_law(law, untouched_pieces(law), parameters);
     coupling.describe(parameters);
   }
 };

@@ -52,11 +52,11 @@ auto if_good(const std::vector<Problem>& found, std::vector<Problem>& problems, 
 /// Adds a problem for each law of a model that has a flaw, and for a coupling that pulls. The model is then empty.
 template <typename Model>
 void check_model(std::optional<Model>& model, std::vector<Problem>& problems) {
-  if constexpr (requires { model->proxies()[0].params().law.pieces(1); }) {
+  if constexpr (requires { untouched_pieces(model->proxies()[0].params().law, 1); }) {
     const std::size_t before = problems.size();
     for (std::size_t i = 0; model && i < model->size(); ++i) {
       const auto& proxy = model->proxies()[i].params();
-      check_law(proxy.law.pieces(1), "membrane[" + std::to_string(i) + "]", problems);
+      check_law(untouched_pieces(proxy.law, 1), "membrane[" + std::to_string(i) + "]", problems);
       if (const auto g = static_cast<double>(proxy.coupling.g); i == 0 && !(g > 0 && std::isfinite(g)))
         problems.push_back({"coupling.g", g, "must be a number greater than 0 N/m: a weaker spring pulls the needle"});
     }

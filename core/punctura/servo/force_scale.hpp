@@ -35,7 +35,7 @@ double largest_force(const Proxies& proxies) {
     const Scalar cosine = membrane.n.dot(first.n);
     if (!(cosine >= grazing_cosine<Scalar>)) continue;
     const auto surface = static_cast<double>((membrane.a - first.a).dot(membrane.n) / cosine);
-    layers.push_back({membrane.law.pieces(std::min(cosine, Scalar(1))), surface});
+    layers.push_back({untouched_pieces(membrane.law, std::min(cosine, Scalar(1))), surface});
     const auto& pieces = layers.back().pieces;
     for (std::size_t i = 0; i != pieces.last(); ++i)
       if (const auto at = static_cast<double>(pieces.end(i)); std::isfinite(at)) depths.push_back(surface + at);

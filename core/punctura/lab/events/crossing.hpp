@@ -87,7 +87,7 @@ double passed(const L& law, const Pieces& pieces, double U) noexcept {
 template <ObliqueLaw L>
 Crossing crossing(const L& law, const Needle& needle, double thickness, double cos_beta) noexcept {
   cos_beta = std::isfinite(cos_beta) ? std::clamp(cos_beta, grazing_cosine<double>, 1.0) : 1.0;
-  const auto pieces = law.pieces(static_cast<typename L::Scalar>(cos_beta));
+  const auto pieces = untouched_pieces(law, static_cast<typename L::Scalar>(cos_beta));
   const std::size_t last = detail::last_break(pieces);
   const auto peak = detail::peak_of(pieces);
   const auto shaft = -pieces.pieces[last + 1].lower.c0;

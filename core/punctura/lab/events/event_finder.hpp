@@ -98,7 +98,7 @@ class EventFinderOf {
   }
   void describe(auto& parameters) const {
     for (const Site& site : now_.sites) {
-      site.law.pieces(1).describe(parameters);
+      untouched_pieces(site.law, 1).describe(parameters);
       parameters.fields(site.point, site.normal, site.thickness);
     }
   }

@@ -1,0 +1,59 @@
+"""A law of one's own: what compiles, and what the compiler says about what does not."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = """
+#include <string>
+#include <vector>
+#include "punctura/punctura.hpp"
+struct Own {
+  using Scalar = double;
+  struct Memory { MEMORY };
+  punctura::PiecewiseBand<double, 2> pieces(double, const Memory&) const noexcept { return {{0}, {}}; }
+  ADVANCE
+};
+punctura::Proxy1d line(Own{}, punctura::Coupling{400, 1}, 1e-3);
+punctura::Proxy3d space(Own{}, punctura::Vector3d(), punctura::Vector3d(0, -1, 0), punctura::Coupling{400, 1}, 1e-3);
+"""
+ADVANCE = "bool advance(Memory&, double) const noexcept { return true; }"
+
+
+def compiled(tmp_path: Path, memory: str, advance: str = ADVANCE) -> subprocess.CompletedProcess[str]:
+    source = tmp_path / "own.cpp"
+    source.write_text(PROGRAM.replace("MEMORY", memory).replace("ADVANCE", advance))
+    compiler = os.environ.get("CXX") or shutil.which("c++") or shutil.which("g++") or "clang++"
+    command = [compiler, "-std=c++20", f"-I{ROOT / 'core'}", "-fsyntax-only", str(source)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+
+
+def test_a_memory_inside_its_law_may_have_initial_values(tmp_path):
+    done = compiled(tmp_path, "double healed = 0; bool left{true};")
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("memory", ["std::string text;", "std::vector<double> cuts;", "const int k = 1;", "int& at;"])
+def test_a_memory_that_is_not_plain_numbers_is_refused_with_the_cause(tmp_path, memory):
+    done = compiled(tmp_path, memory)
+    assert done.returncode != 0
+    assert "must be plain numbers" in done.stderr and "std::string" in done.stderr
+
+
+@pytest.mark.parametrize(
+    "advance",
+    [
+        "",
+        "bool advance(Memory&, double) const { return true; }",
+        "bool advance(Memory&, double) noexcept { return true; }",
+        "void advance(Memory&, double) const noexcept {}",
+    ],
+)
+def test_a_function_of_a_memory_in_another_form_is_refused_with_the_cause(tmp_path, advance):
+    done = compiled(tmp_path, "double cut;", advance)
+    assert done.returncode != 0
+    assert "bool advance(Memory&, Scalar depth) const noexcept" in done.stderr
