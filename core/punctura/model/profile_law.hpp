@@ -110,6 +110,7 @@ class BasicProfileLaw {
  public:
   using Scalar = Scalar_;
   using Pieces = ManyPieces<Scalar, 2 * Most + 1>;
+  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
 
   /// thickness: H, m. cos_beta: n.b, for pieces() and band().
   constexpr BasicProfileLaw(const BasicProfile<Scalar, Most>& profile, Scalar thickness,

@@ -22,6 +22,7 @@ class BasicThickLaw {
  public:
   using Scalar = Scalar_;
   using Pieces = PiecewiseBand<Scalar, 5>;
+  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
 
   /// obliquity: beta, rad. pieces() and band() use it.
   constexpr BasicThickLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,

@@ -37,6 +37,7 @@ class BasicTissueLaw {
   /// Breaks: the knots, the same behind the far face, at most four of the cutting, the end of a hole, and the knots
   /// behind the slices that the tip has passed.
   using Pieces = TissueBand<Scalar, 3 * max_knots + 6>;
+  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
   using Memory = BasicHole<Scalar>;
 
   /// cos_beta: n.b, for pieces() without n.b. chords: see profile_of().

@@ -1,10 +1,11 @@
 // One proxy and one membrane in space (K06 section 3.2): parameters, state and result of a tick, as plain data.
 #pragma once
 
+#include <limits>
 #include <type_traits>
 #include <utility>
 
-#include "punctura/model/law.hpp"
+#include "punctura/model/law_flaw.hpp"
 #include "punctura/model/vector3.hpp"
 #include "punctura/proxy/coupling.hpp"
 #include "punctura/proxy/exact_friction.hpp"
@@ -37,6 +38,16 @@ struct SpaceParams {
   }
 };
 
+/// Whether the pieces of a law have had a flaw since the last reset. Only a law that MayHaveFlaws is watched.
+struct Watch {
+  bool flawed = false;
+};
+struct NoWatch {};
+/// What a proxy then reports: ServoGuard ends the force.
+template <typename Scalar>
+inline constexpr Band<Scalar> no_band{std::numeric_limits<Scalar>::quiet_NaN(),
+                                      std::numeric_limits<Scalar>::quiet_NaN()};
+
 /// The state of a proxy between two ticks.
 ///
 /// SpaceState<L>{} is the state before the first sample. A proxy that starts inside stays barred until it has been
@@ -56,6 +67,7 @@ struct SpaceState {
   PiecesOf<L> pieces{};  ///< the pieces of the law for cos_beta, valid while inside
   typename MemoryOf<L>::type law{};
   typename C::template Memory<Vector> coupling{};
+  [[no_unique_address]] std::conditional_t<MayHaveFlaws<L>, Watch, NoWatch> watch{};
 
   /// Reads or writes the state without the pieces. lay_out() computes them.
   static void archive(auto& self, auto& state) {
@@ -97,6 +109,12 @@ constexpr SpaceTick<V> select(const M& mask, const SpaceTick<V>& a, const SpaceT
           select(mask, a.phase, b.phase)};
 }
 
+template <typename L, typename C>
+constexpr void look_for_flaws([[maybe_unused]] const SpaceParams<L, C>& params,
+                              [[maybe_unused]] SpaceState<L, C>& state) noexcept {
+  if constexpr (MayHaveFlaws<L>) state.watch.flawed = state.watch.flawed || has_flaw(params.law, state.pieces);
+}
+
 /// Computes the pieces of the law for the angle of the needle and for the memory of the membrane.
 template <typename L, typename C>
 constexpr void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state) noexcept {
@@ -104,6 +122,7 @@ constexpr void lay_out(const SpaceParams<L, C>& params, SpaceState<L, C>& state)
     state.pieces = params.law.pieces(state.cos_beta, state.law);
   else
     state.pieces = params.law.pieces(state.cos_beta);
+  look_for_flaws(params, state);
 }
 
 /// p(k-1), m; in the first tick p(k). For one number it is state.p itself, until the tick ends: a copy would cost time.
@@ -147,7 +166,9 @@ template <typename L, typename C, typename Scalar>
     const SpaceParams<L, C>& params, SpaceState<L, C>& state, const Vector3<Scalar>& p, const Vector3<Scalar>& p_prev,
     const Vector3<Scalar>& f_star, const Friction<Scalar>& friction, Scalar depth) noexcept {
   const Vector3<Scalar> e_prev = state.e;
-  const Band<Scalar> band = state.pieces.band(depth);
+  Band<Scalar> band = state.pieces.band(depth);
+  if constexpr (MayHaveFlaws<L>)
+    if (state.watch.flawed) band = no_band<Scalar>;
   state.f = f_star + state.b * (friction.force - state.b.dot(f_star));           // K06 (39)
   state.e = e_prev - (p - p_prev) + params.coupling.inv_g * (state.f - f_star);  // K06 (25), (37)
   params.coupling.advance(state.coupling, state.e, e_prev);
@@ -160,10 +181,12 @@ template <typename L, typename C, typename Scalar>
   if constexpr (LawWithMemory<L>) {
     const Scalar now = params.n.dot(p + state.e - params.a) / state.cos_beta;
     if (advance_memory(params.law, state.law, now, time_step<L>(params.coupling))) {
-      if constexpr (RefreshesPieces<L>)
+      if constexpr (RefreshesPieces<L>) {
         params.law.refresh(state.pieces, state.law);
-      else
+        look_for_flaws(params, state);
+      } else {
         lay_out(params, state);
+      }
     }
   }
   if constexpr (LooksAhead<PiecesOf<L>>) state.pieces.look_at(depth);

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "punctura/model/law.hpp"
+#include "punctura/model/law_flaw.hpp"
 
 namespace punctura {
 
@@ -53,6 +53,10 @@ class MixedPieces {
   constexpr auto& of() noexcept {
     return *std::get_if<i>(&of_);
   }
+  template <std::size_t i>
+  constexpr const auto& of() const noexcept {
+    return *std::get_if<i>(&of_);
+  }
 
  private:
   template <typename Visitor>
@@ -74,6 +78,7 @@ class MixedLaw {
  public:
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
   using Pieces = MixedPieces<PiecesOf<Laws>...>;
+  static constexpr bool is_proven = !(MayHaveFlaws<Laws> || ...);
   /// The memory of the law in use, from its first advance() on. Before that, the law has an untouched Memory{}.
   struct Memory : std::variant<typename MemoryOf<Laws>::type...> {
     using Each = std::variant<typename MemoryOf<Laws>::type...>;
@@ -136,6 +141,14 @@ class MixedLaw {
       if constexpr (RefreshesPieces<Each<i>>)
         if (const auto* own = std::get_if<i>(&memory)) law.refresh(pieces.template of<i>(), *own);
     });
+  }
+
+  constexpr bool has_flaw(const Pieces& pieces) const noexcept {
+    bool flawed = false;
+    visit([&]<std::size_t i>(const auto& law) {
+      if constexpr (MayHaveFlaws<Each<i>>) flawed = punctura::has_flaw(law, pieces.template of<i>());
+    });
+    return flawed;
   }
 
   void describe(auto& parameters) const {

@@ -78,8 +78,10 @@ class Proxy3d {
   static void archive(auto& self, auto& state) {
     constexpr bool reading = std::remove_reference_t<decltype(state)>::reading;
     State::archive(self.state_, state);
-    if constexpr (reading)
+    if constexpr (reading) {
+      self.state_.watch = {};
       if (self.is_inside()) lay_out(self.params_, self.state_);
+    }
     SpaceTick<Scalar> last = self.tick();
     state.fields(last.axial_force, last.depth, last.band.lower, last.band.upper);
     if constexpr (reading) self.keep(last);
@@ -104,7 +106,7 @@ class Proxy3d {
   /// The band of the axial force, N.
   constexpr Band<Scalar> band() const noexcept {
     if (!is_inside()) return {0, 0};
-    if constexpr (LawWithMemory<L>)
+    if constexpr (LawWithMemory<L> || MayHaveFlaws<L>)
       return band_;
     else
       return state_.pieces.band(depth_);
@@ -133,7 +135,7 @@ class Proxy3d {
     if (!inside(tick.phase)) return;
     axial_force_ = tick.axial_force;
     depth_ = tick.depth;
-    if constexpr (LawWithMemory<L>) band_ = tick.band;  // the law has changed since
+    if constexpr (LawWithMemory<L> || MayHaveFlaws<L>) band_ = tick.band;  // the law may have changed since
   }
 
   Params params_;

@@ -96,9 +96,10 @@ class RelaxingCoupling {
   }
 
   /// f*, N: the force that holds the proxy still. K06 (27), (38), and what is left of the branches' forces.
+  /// Inlined as the tick in space is: see settle_inside().
   template <typename Vector>
-  constexpr Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
-                                 const Memory<Vector>& memory) const noexcept {
+  [[gnu::always_inline]] constexpr Vector holding_force(const Vector& p, const Vector& p_prev, const Vector& e_prev,
+                                                        const Memory<Vector>& memory) const noexcept {
     Vector f = -g * (p - p_prev) + spring_.K * e_prev;
     for (std::size_t i = 0; i < count_; ++i) f = f + branches_[i].a * memory.force[i];
     return f;

@@ -18,7 +18,7 @@ enum class Fault : std::uint8_t {
   stale_sample,      ///< the device repeated the same sample for too long
   missed_deadline,   ///< the tick came too late, or the computer slept
   clock,             ///< the time went back
-  non_finite_force,  ///< the model computed NaN or infinity: a defect of its law
+  non_finite_force,  ///< the model computed NaN or infinity, or its law has a flaw (find_flaw())
   device,            ///< the back-end reported a fault
   thumb,             ///< the device under the thumb has a fault or is silent
 };
@@ -46,7 +46,8 @@ constexpr const char* describe(Fault fault) noexcept {
              "close programs that keep the processor busy, keep the computer awake, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";
     case Fault::non_finite_force:
-      return "the model gave a force or a band that is not a number: "
+      return "the model gave a force or a band that is not a number, or a band whose lower edge is above its upper one "
+             "or above 0 N, or whose breaks are out of order: "
              "correct the law if it is your own; otherwise please report the scene and the recording";
     case Fault::device: return "the device reported a fault of its own: check its cable and its power, then reset";
     case Fault::thumb:

@@ -73,7 +73,7 @@ concept GivesLaws = std::invocable<LawOf, const BasicNeedle<Scalar>&, const Basi
 ///
 /// law_of(needle, membrane, i) returns the law of each membrane, in place of the scene's. needle and membrane are in
 /// Scalar. i is the number of the membrane in the scene. The coupling is K06's. The result is empty if the scene has
-/// problems, or a law has a flaw (flaw_of()). They are added to `problems`.
+/// problems, or a law has a flaw (find_flaw()). They are added to `problems`.
 template <typename Scalar, GivesLaws<Scalar> LawOf>
 auto try_build_insertion(const Scene& scene, std::vector<Problem>& problems, LawOf&& law_of) {
   auto found = check(scene);

@@ -211,7 +211,8 @@ class ServoGuard {
 
  private:
   /// Whether each band is finite. Where a law of the user's own gives NaN, a proxy holds the needle with its coupling,
-  /// and the force stays finite. check() has seen the bands of a scene's own laws, in double.
+  /// and the force stays finite; the band of a law with a flaw is NaN (no_band). check() has seen the bands of a
+  /// scene's own laws, in double.
   template <typename Insertion>
   bool bands_are_finite([[maybe_unused]] const Insertion& model) const noexcept {
     if constexpr (std::is_same_v<Insertion, BasicInsertion<double>>) return true;

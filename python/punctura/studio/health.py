@@ -38,8 +38,8 @@ _WORDS: dict[Fault, tuple[str, str]] = {
         "Its driver must use a clock that never goes back.",
     ),
     Fault.non_finite_force: (
-        "The model gave a force that is not a number.",
-        "This is a defect: please report it, with the scene and the saved ticks.",
+        "The model gave a force or a band that is not a number, or a band that no law can have.",
+        "Correct the law if it is your own. Otherwise please report the scene and the saved ticks.",
     ),
     Fault.device: ("The device reported a fault.", "Check the device."),
     Fault.thumb: (

@@ -1,0 +1,84 @@
+// Whether the pieces of a law, a scene's or the user's own, fulfil what Law asks of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "punctura/model/law.hpp"
+
+namespace punctura {
+
+/// What is wrong with the pieces of a law, and where.
+struct LawFlaw {
+  enum class Kind : std::uint8_t {
+    none,
+    in_front,  ///< the band is not 0 in front of the first break
+    behind,    ///< an edge is not constant behind the last break
+    order,     ///< break `at` is in front of `depth`, or is not a number
+    band,      ///< the lower edge is above the upper one at `depth`, or one is not finite
+    pulls,     ///< the lower edge is above 0 N at `depth`
+  };
+  Kind kind = Kind::none;
+  std::size_t at = 0;
+  double depth = 0, lower = 0, upper = 0;  ///< m, N, N
+};
+
+/// The first flaw. only_finite: of a scene's own law, whose edges cross by rounding alone.
+template <typename Pieces>
+LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
+  using Scalar = typename Pieces::Scalar;
+  using Kind = LawFlaw::Kind;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double of_parts = std::max(1e-9, 100.0 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
+  const auto level = [](const auto& edge) { return edge.c1 == 0 && edge.c2 == 0; };
+  std::size_t first = 0;  // TissueLaw keeps a piece for a hole that is finished: it is empty if its end is -infinity
+  while (first < pieces.last() && static_cast<double>(pieces.end(first)) == -infinity) ++first;
+  const auto& front = pieces.piece(first);
+  const auto& back = pieces.piece(pieces.last());
+  if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0) return {Kind::in_front};
+  if (!level(back.lower) || !level(back.upper)) return {Kind::behind};
+  double from = 0, largest = 0;  // m, N
+  for (std::size_t i = first + 1; i <= pieces.last() && std::isfinite(from); ++i) {
+    const auto start = static_cast<double>(pieces.end(i - 1));
+    if (!(start >= from - 1e-12)) return {Kind::order, i - 1, from};
+    from = start;
+    const auto& piece = pieces.piece(i);
+    const double to = i < pieces.last() ? static_cast<double>(pieces.end(i)) : from;
+    const auto width = piece.upper.minus(1, piece.lower);
+    const auto turn =
+        static_cast<double>(piece.origin - width.c1 / (2 * width.c2));  // NaN or infinity if it is straight
+    for (const double depth : {from, to, turn > from && turn < to ? turn : from}) {
+      if (!std::isfinite(depth)) continue;
+      const auto [lower, upper] = piece.band(static_cast<Scalar>(depth));
+      const LawFlaw found{Kind::band, 0, depth, static_cast<double>(lower), static_cast<double>(upper)};
+      largest = std::max({largest, std::abs(found.lower), std::abs(found.upper)});
+      const double rounding =  // an average rounds to its parts
+          1e-6 * (std::abs(found.lower) + std::abs(found.upper)) + of_parts * largest;
+      if (!std::isfinite(rounding)) return found;
+      if (only_finite) continue;
+      if (found.lower > found.upper + rounding) return found;
+      if (found.lower > rounding) return {Kind::pulls, 0, depth, found.lower, found.upper};
+    }
+  }
+  return {};
+}
+
+/// Whether a law may break its word in a run: one of the user's own. `is_proven` says that tests hold the pieces of a
+/// law to what Law asks, at each angle and for each memory.
+template <typename L>
+concept MayHaveFlaws = std::floating_point<typename L::Scalar> && !requires { requires L::is_proven; };
+
+/// Whether pieces of this law have a flaw. A law can answer itself: MixedLaw does.
+template <MayHaveFlaws L>
+constexpr bool has_flaw(const L& law, const PiecesOf<L>& pieces) noexcept {
+  if constexpr (requires { law.has_flaw(pieces); })
+    return law.has_flaw(pieces);
+  else
+    return find_flaw(pieces).kind != LawFlaw::Kind::none;
+}
+
+}  // namespace punctura
