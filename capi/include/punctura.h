@@ -39,7 +39,7 @@ extern "C" {
 typedef int32_t punctura_status;
 enum {
   PUNCTURA_OK = 0,
-  PUNCTURA_BAD_ARGUMENT = 1, /* a null pointer, an index out of range, a struct_size that no version has */
+  PUNCTURA_BAD_ARGUMENT = 1, /* a null pointer, an index out of range, a struct_size too small or over 4096 */
   PUNCTURA_BAD_SCENE = 2,    /* the text or the values of a scene, or the limits, have problems */
   PUNCTURA_BAD_STATE = 3,    /* the bytes are no state of this object */
   PUNCTURA_NO_PEEK = 4,      /* commit without peek */
@@ -72,11 +72,12 @@ PUNCTURA_API punctura_status punctura_problem(int32_t index, const char** path, 
 
 typedef struct punctura_scene punctura_scene;
 
-/* From the text of a scene file. docs/scene-file.md. */
+/* From the text of a scene file, of `size` bytes without a NUL, at most 256 KiB. docs/scene-file.md. */
 PUNCTURA_API punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene);
 
 /* From lines PATH = NUMBER and PATH = "WORD", in SI units, with the paths of punctura_scene_set() and
- * punctura_scene_set_word(). Needs no TOML reader. A membrane and the syringe appear with their first line. */
+ * punctura_scene_set_word(). Needs no TOML reader. A membrane and the syringe appear with their first line. `size` as
+ * above, but at most 4 MiB. */
 PUNCTURA_API punctura_status punctura_scene_from_values(const char* text, size_t size, punctura_scene** scene);
 
 /* From structs. The _init functions set the numbers without default to NaN and all others to their default. Call them
@@ -177,8 +178,8 @@ PUNCTURA_API punctura_status punctura_insertion_peek(punctura_insertion* inserti
                                                      const double axis[3], double force[3]);  /* Tick */
 PUNCTURA_API punctura_status punctura_insertion_commit(punctura_insertion* insertion);        /* Tick */
 /* Makes `count` ticks. positions, axes, forces: 3 numbers a tick. axes may be one axis: axis_stride is then 0,
- * otherwise 3. Allocates no memory. Ends at the first tick that is not PUNCTURA_OK: all
- * forces from there on are NaN. */
+ * otherwise 3. Allocates no memory, except for the text of a wrong argument. Ends at the first tick that is not
+ * PUNCTURA_OK: all forces from there on are NaN. */
 PUNCTURA_API punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t count,
                                                     const double* positions, const double* axes, size_t axis_stride,
                                                     double* forces);

@@ -64,9 +64,14 @@ punctura_status guarded(std::initializer_list<const void*> needed, F&& f) noexce
 template <typename Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);  // add a specialization when a struct grows
 
+inline constexpr std::size_t largest_size = 4096;  ///< of any struct, in any version: more is a slip
+template <typename Struct>
+bool known_size(std::size_t size) noexcept {
+  return size >= first_size<Struct> && size <= largest_size;
+}
 template <typename Struct>
 bool known_size(const Struct* given) noexcept {
-  return given && given->struct_size >= first_size<Struct>;
+  return given && known_size<Struct>(given->struct_size);
 }
 
 /// Copies the fields that both sides know into the caller's struct.
@@ -87,7 +92,7 @@ Struct taken(const Struct* from, Struct defaults) noexcept {
 /// For an _init function: fills the caller's struct of `size` bytes with the defaults.
 template <typename Struct>
 punctura_status init(Struct* given, std::size_t size, const Struct& defaults) noexcept {
-  if (!given || size < first_size<Struct>) return PUNCTURA_BAD_ARGUMENT;
+  if (!given || !known_size<Struct>(size)) return PUNCTURA_BAD_ARGUMENT;
   std::memset(given, 0, size);
   std::memcpy(given, &defaults, std::min(size, sizeof defaults));
   given->struct_size = size;
@@ -102,13 +107,22 @@ struct punctura_scene {
 
 namespace punctura::c {
 
-/// A new scene from a text. read(text, scene, problems) adds what is wrong.
+/// A new scene from a text of at most `most` bytes. read(text, scene, problems) adds what is wrong. Nothing behind a
+/// NUL is read, because a wrong size may lead out of the caller's memory.
 template <typename Read>
-punctura_status scene_from(const char* text, std::size_t size, punctura_scene** scene, Read&& read) {
+punctura_status scene_from(const char* text, std::size_t size, std::size_t most, punctura_scene** scene, Read&& read) {
   return guarded({text, scene}, [&] {
     auto made = std::make_unique<punctura_scene>();
     std::vector<Problem> problems;
-    read(std::string_view(text, size), made->scene, problems);
+    const auto refuse = [&](const std::string& why) { problems.push_back({"text", not_given, why}); };
+    if (size > most)
+      refuse("is larger than " + std::to_string(most / 1024) + " KiB: no scene needs that");
+    else if (const void* nul = std::memchr(text, 0, size))
+      refuse("ends after " + std::to_string(static_cast<const char*>(nul) - text) +
+             " bytes with a NUL, and its size is " + "given as " + std::to_string(size) +
+             ": give the size without the NUL");
+    else
+      read(std::string_view(text, size), made->scene, problems);
     if (!problems.empty()) return fail(std::move(problems));
     *scene = made.release();
     return ok;

@@ -43,8 +43,8 @@ const char* punctura_status_text(punctura_status status) {
   switch (status) {
     case PUNCTURA_OK: return "no error";
     case PUNCTURA_BAD_ARGUMENT:
-      return "a pointer is NULL, an index is out of range or a struct_size is wrong. punctura_last_error() says which, "
-             "but not after a tick or an _init function";
+      return "a pointer is NULL, an index is out of range, or a stride or a struct_size is wrong. "
+             "punctura_last_error() says which, but not after a tick or an _init function";
     case PUNCTURA_BAD_SCENE: return "the scene or the limits have problems: see punctura_last_error()";
     case PUNCTURA_BAD_STATE: return "the bytes are no state of this object: see punctura_last_error()";
     case PUNCTURA_NO_PEEK: return "there is no tick to commit: call the _peek function first";

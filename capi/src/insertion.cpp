@@ -22,7 +22,9 @@ punctura_status punctura_insertion_run(punctura_insertion* insertion, size_t cou
                                        const double* axes, size_t axis_stride, double* forces) {
   if (!insertion || !positions || !axes || !forces || (axis_stride != 0 && axis_stride != 3)) {
     for (size_t i = 0; forces && i < count; ++i) no_force(forces + 3 * i);
-    return PUNCTURA_BAD_ARGUMENT;
+    return guarded({insertion, positions, axes, forces}, [] {
+      return fail(PUNCTURA_BAD_ARGUMENT, "axis_stride must be 0, one axis for all ticks, or 3, an axis for each tick");
+    });
   }
   punctura::Insertion& object = insertion->stepping();
   punctura_status status = ok;

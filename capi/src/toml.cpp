@@ -71,9 +71,7 @@ class SceneText {
   /// What makes the text too large to read it: toml++ would need a long time for it, or more stack than there is. ""
   /// if nothing does. The limits are those of python/punctura/files/toml.py.
   std::string excess() const {
-    constexpr std::size_t most_bytes = 256 * 1024, most_nested = 16, most_dots = 16;
-    if (text_.size() > most_bytes)
-      return "is larger than " + std::to_string(most_bytes / 1024) + " KiB: no scene needs that";
+    constexpr std::size_t most_nested = 16, most_dots = 16;
     std::size_t nested = 0, dots = 0;
     for (std::size_t i = 0; i < text_.size(); ++i) {
       const char c = text_[i];
@@ -263,7 +261,7 @@ void read_text(std::string_view given, Scene& scene, std::vector<Problem>& probl
 }  // namespace punctura::c
 
 punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene) {
-  return punctura::c::scene_from(text, size, scene, punctura::c::read_text);
+  return punctura::c::scene_from(text, size, 256 * 1024, scene, punctura::c::read_text);
 }
 
 #else

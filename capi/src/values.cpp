@@ -57,5 +57,5 @@ void read_lines(std::string_view text, Scene& scene, std::vector<Problem>& probl
 }  // namespace punctura::c
 
 punctura_status punctura_scene_from_values(const char* text, size_t size, punctura_scene** scene) {
-  return punctura::c::scene_from(text, size, scene, punctura::c::read_lines);
+  return punctura::c::scene_from(text, size, 4096 * 1024, scene, punctura::c::read_lines);
 }

@@ -80,6 +80,9 @@ TEST_CASE("C ABI: what is no number gives NaN and changes nothing; NULL is refus
   CHECK(punctura_insertion_run(a.insertion.get(), 2, p, capi_axis, 1, forces) == PUNCTURA_BAD_ARGUMENT);
   CHECK(std::isnan(forces[0]));
   CHECK(std::isnan(forces[5]));
+  CHECK(std::string(punctura_last_error()).starts_with("axis_stride must be 0"));
+  CHECK(punctura_insertion_run(a.insertion.get(), 2, nullptr, capi_axis, 1, forces) == PUNCTURA_BAD_ARGUMENT);
+  CHECK(std::string(punctura_last_error()) == "a pointer is NULL");
   CHECK(std::isnan(punctura_proxy1d_step(nullptr, 0)));
   CHECK(punctura_servo_step(nullptr, nullptr, nullptr) == PUNCTURA_BAD_ARGUMENT);
   CHECK(punctura_insertion_new(nullptr, nullptr) == PUNCTURA_BAD_ARGUMENT);
@@ -101,8 +104,23 @@ TEST_CASE("C ABI: a caller with a longer struct gets what this library knows, an
   CHECK(punctura_insertion_membrane(one.insertion.get(), 0, &longer.known) == PUNCTURA_OK);
   CHECK(longer.added_later == 7);
   CHECK(longer.known.struct_size == sizeof longer);
+  longer.known.struct_size = std::size_t{4'000'000'000};
+  CHECK(punctura_insertion_membrane(one.insertion.get(), 0, &longer.known) == PUNCTURA_BAD_ARGUMENT);
+  punctura_setup setup;
+  CHECK(punctura_setup_init(&setup, std::size_t{4'000'000'000}) == PUNCTURA_BAD_ARGUMENT);
   longer.known.struct_size = 8;
   CHECK(punctura_insertion_membrane(one.insertion.get(), 0, &longer.known) == PUNCTURA_BAD_ARGUMENT);
+}
+
+TEST_CASE("C ABI: a text whose size is too large is refused before anything behind its end is read") {
+  const char* const text = "# the size of this text is wrong";
+  punctura_scene* scene = nullptr;
+  for (const auto from : {punctura_scene_from_toml, punctura_scene_from_values}) {
+    CHECK(from(text, std::size_t{5'000'000'000}, &scene) == PUNCTURA_BAD_SCENE);
+    CHECK(std::string(punctura_last_error()).find("KiB: no scene needs that") != std::string::npos);
+    CHECK(from(text, std::size_t{100'000}, &scene) == PUNCTURA_BAD_SCENE);
+    CHECK(std::string(punctura_last_error()).find("text: ends after 32 bytes with a NUL") != std::string::npos);
+  }
 }
 
 TEST_CASE("C ABI: a wrong path names the near one, and a number of the syringe asks for the syringe") {
