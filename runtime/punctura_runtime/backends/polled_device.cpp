@@ -12,6 +12,7 @@ void PolledDevice::start(Tick tick) {
   begin();
   stopping_ = finished_ = false;
   missed_ = 0;
+  at_ = At::device;
   std::promise<std::string> prepared;
   std::future<std::string> error = prepared.get_future();
   try {
@@ -22,6 +23,7 @@ void PolledDevice::start(Tick tick) {
       const bool ready = why_not.empty();
       prepared.set_value(std::move(why_not));
       if (ready) run(tick);
+      at_ = At::over;
     });
   } catch (const std::system_error& why) {
     throw DeviceError(std::string("no thread for the device's ticks: ") + why.what());
@@ -32,9 +34,16 @@ void PolledDevice::start(Tick tick) {
   }
 }
 
+/// If the model hangs in a tick, the device gets zero force without it. stop() then waits for the tick, whose loop and
+/// device must live as long.
 void PolledDevice::stop() noexcept {
   stopping_ = true;
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (at_ != At::over && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  if (At in_tick = At::tick; at_.compare_exchange_strong(in_tick, At::lost)) end();
+  thread_.join();
 }
 
 double PolledDevice::now() const noexcept {
@@ -50,7 +59,9 @@ void PolledDevice::run(Tick tick) noexcept {
     if (pacing_.waits) missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (stopping_) break;
     if (next = read(); next != Next::tick) break;
+    at_ = At::tick;
     Tick::Force force = tick(sample_);
+    if (At in_tick = At::tick; !at_.compare_exchange_strong(in_tick, At::device)) return;  // stop() has ended it
     if (!sample_.healthy) force = {0, 0, 0};
     if (next = write(force); next != Next::tick) break;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <vector>
@@ -46,8 +47,10 @@ class PolledDevice : public Device {
   /// Reads the device into sample_, with its time.
   virtual Next read() noexcept = 0;
   virtual Next write(const Tick::Force& force) noexcept = 0;
-  /// Zero force. After trouble, one last tick with healthy = false follows, whose force is not used.
+  /// Zero force. After trouble, one last tick with healthy = false follows, whose force is not used. If a tick does not
+  /// return within `patience` of stop(), it is called on the thread of stop(), while that tick still runs.
   virtual void end() noexcept {}
+  static constexpr std::chrono::milliseconds patience{100};
 
   std::uint64_t count() const noexcept { return count_; }  ///< ticks of this run so far
   /// Seconds since the run began.
@@ -63,6 +66,8 @@ class PolledDevice : public Device {
   DeviceSample sample_{};  ///< used by the ticking thread and begin() only
 
  private:
+  /// What the ticking thread does. lost: a tick that did not return; the thread leaves the device alone from then on.
+  enum class At { device, tick, over, lost };
   void run(Tick tick) noexcept;
 
   std::uint64_t count_ = 0;
@@ -70,6 +75,7 @@ class PolledDevice : public Device {
   std::atomic<bool> finished_{false};
   std::atomic<std::uint64_t> missed_{0};
   std::atomic<bool> stopping_{false};
+  std::atomic<At> at_{At::over};
   std::vector<os::RealtimeItem> realtime_;
   std::thread thread_;
 };

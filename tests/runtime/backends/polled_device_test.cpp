@@ -23,12 +23,16 @@ struct Bare : PolledDevice {
     last = force;
     return lost ? Next::trouble : Next::tick;
   }
-  void end() noexcept override { last = {0, 0, 0}; }
+  void end() noexcept override {
+    last = {0, 0, 0};
+    ++ends;
+  }
 
   std::string refusal;
   std::uint64_t ticks = 1'000'000'000;
   std::size_t known = 0;
   std::atomic<bool> prepared{false}, lost{false};
+  std::atomic<int> ends{0};
   Tick::Force last{};
 };
 
@@ -90,6 +94,35 @@ TEST_CASE("a lost device has zero force before the loop gets its one unhealthy s
   CHECK(ticks.healthy == 1);
   CHECK(ticks.unhealthy == 1);
   CHECK(device.last == Tick::Force{0, 0, 0});
+}
+
+TEST_CASE("if a tick does not return, stop() gives zero force without it, and its force is never written") {
+  struct Hanging {
+    std::atomic<int> calls{0};
+    std::atomic<bool> returns{false};
+  } model;
+  const Tick tick{[](void* to, const DeviceSample&) noexcept {
+                    auto& m = *static_cast<Hanging*>(to);
+                    for (++m.calls; m.calls == 3 && !m.returns;) std::this_thread::yield();
+                    return Tick::Force{1, 2, 3};
+                  },
+                  &model, 5};
+  Bare device;
+  device.start(tick);
+  while (model.calls < 3) std::this_thread::yield();
+  CHECK(device.last == Tick::Force{1, 2, 3});
+  std::thread stops([&] { device.stop(); });
+  while (device.ends == 0) std::this_thread::yield();
+  CHECK(device.last == Tick::Force{0, 0, 0});
+  model.returns = true;
+  stops.join();
+  CHECK(device.last == Tick::Force{0, 0, 0});
+  CHECK(device.ends == 1);
+  CHECK(model.calls == 3);
+  device.start(tick);
+  while (model.calls < 5) std::this_thread::yield();
+  device.stop();
+  CHECK(device.ends == 2);
 }
 
 TEST_CASE("the thread itself requests real-time scheduling, before the preparation") {
