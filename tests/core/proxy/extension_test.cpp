@@ -107,6 +107,42 @@ TEST_CASE("a law may return its pieces by value or by reference, on a line and i
   }
 }
 
+TEST_CASE("friction that grows with the speed of the last tick is steady up to b = B + K T / 2, and rings above it") {
+  struct Viscous {
+    using Scalar = double;
+    struct Memory {
+      double depth, speed;
+    };
+    double b;  ///< N s/m
+    PiecewiseBand<double, 2> pieces(double = 1, const Memory& m = {}) const noexcept {
+      const double force = 0.1 + b * std::abs(m.speed);
+      return {{0}, {{{}, {0, {-force}, {force}}}}};
+    }
+    bool advance(Memory& m, double depth, double dt) const noexcept {
+      m = {depth, dt > 0 ? (depth - m.depth) / dt : 0};
+      return true;
+    }
+  };
+  const double K = 400, B = 1, most = B + K * T / 2, v = 20e-3;
+  for (const double part : {0.5, 0.95, 1.05, 1.5}) {
+    CAPTURE(part);
+    Proxy1d line(Viscous{part * most}, Coupling{K, B}, T);
+    Proxy3d space(Viscous{part * most}, Vector3d(), down, Coupling{K, B}, T);
+    double lowest = 0, highest = -10;
+    for (int k = 0; k < 3200; ++k) {
+      const double p = -1e-3 + v * k * T, f = line.step(p);
+      CHECK(-space.step({0, -p, 0}, down).y() == doctest::Approx(f).epsilon(1e-6));
+      if (k < 2400) continue;
+      lowest = std::min(lowest, f);
+      highest = std::max(highest, f);
+    }
+    if (part < 1)
+      CHECK(lowest == doctest::Approx(highest).epsilon(1e-6));
+    else
+      CHECK(highest - lowest > 0.1 * part * most * v);
+  }
+}
+
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const OwnCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
