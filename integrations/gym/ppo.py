@@ -13,6 +13,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
+import torch
 from gymnasium.spaces import Discrete
 from punctura.gym import TASKS
 from punctura.gym.stable_baselines import NeedleVecEnv
@@ -80,6 +81,7 @@ def main() -> None:
     given.add_argument("--patients", type=int, default=200, help="of the trial after the training")
     given.add_argument("--plot", help="a file for the curve of the training")
     chosen = given.parse_args()
+    torch.set_num_threads(1)  # several wait for each other at so small a network
     env = VecFrameStack(GoOrStop(64), 4)
     model = PPO("MlpPolicy", env, n_steps=64, batch_size=512, ent_coef=0.003, seed=chosen.seed, device="cpu")
     curve, began = Curve(), time.monotonic()
@@ -90,10 +92,11 @@ def main() -> None:
         import matplotlib.pyplot as plt
 
         decisions, share = np.array(curve.points).T
-        plt.plot(decisions, 100 * share)
-        plt.xlabel("decisions")
-        plt.ylabel("success of the last 200 trials (%)")
-        plt.savefig(chosen.plot)
+        figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+        axes.plot(decisions, 100 * share)
+        axes.set(xlabel="decisions of all trials", ylabel="success of the last 200 (%)", xlim=(0, None), ylim=(0, 100))
+        axes.grid(alpha=0.3)
+        figure.savefig(chosen.plot)
 
 
 if __name__ == "__main__":
