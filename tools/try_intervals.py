@@ -1,8 +1,9 @@
 """Measures how often the intervals of `punctura identify` hold the truth.
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
-        [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--lag 0]
-        [--delay 0] [--play 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
+        [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--growing 0]
+        [--lag 0] [--delay 0] [--play 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1]
+        [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -11,10 +12,10 @@ samples, Hz; at 40 Hz the needle goes some 0.2 mm from sample to sample. --early
 so that it cannot tell some parameters. --machine: the needle moves at one speed, not by a hand at a device,
 whose encoder has counts. --inward: the trace ends at its greatest depth. --walk: the standard deviation,
 N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
-multiples of these, m and N. --lag, --delay: of the force sensor, s. --play: of the drive of --machine, m.
---tolerance: the true diameter of the needle is within this share of the stated one, in 95 of 100 traces, and identify
-is told so. --wrong: the stated diameter is off by this share, up or down, and "warned" says how often the result doubts
-the needle.
+multiples of these, m and N. --growing: noise beside --noise, as a share of the force. --lag, --delay: of the force
+sensor, s. --play: of the drive of --machine, m. --tolerance: the true diameter of the needle is within this share of
+the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
+down, and "warned" says how often the result doubts the needle.
 --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
 it is right. --auto: the number is not given for one wall, too.
@@ -60,7 +61,7 @@ HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
-    "--play": "m",
+    "--play": "m", "--growing": "of the force",
     "--tolerance": "of the diameter", "--wrong": "of the diameter",
 }  # fmt: skip
 
@@ -80,6 +81,7 @@ class Conditions:
     depth_noise: float = 0.0
     depth_step: float = 0.0
     force_step: float = 0.0
+    growing: float = 0.0
     lag: float = 0.0
     delay: float = 0.0
     play: float = 0.0
@@ -143,7 +145,8 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
     if given.inward:
         force, time, depth = (column[: int(np.argmax(depth)) + 1] for column in (force, time, depth))
     count = len(time)
-    force = force + given.noise * correlated(rng, count, given.correlation)
+    size = np.hypot(given.noise, given.growing * force)
+    force = force + size * correlated(rng, count, given.correlation)
     if given.drift:
         force += given.drift * correlated(rng, count, float(np.exp(-1 / (SLOW * given.rate))))
     force += given.walk / np.sqrt(WALK * given.rate) * np.cumsum(rng.normal(size=count))

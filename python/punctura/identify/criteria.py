@@ -102,13 +102,14 @@ class Rule:
         enough samples does not exclude. If `old` leaves such noise, the evidence must be STRONG: a wall that never pops
         is like a slow change. A relaxation looks like a drift, so there it is as much as the air allows.
         """
-        more = set(new.model.names) - set(old.model.names)
-        relaxing = any(name.startswith(RELAXATION) for name in more)
+        added = set(new.model.names) - set(old.model.names)
+        relaxing = any(name.startswith(RELAXATION) for name in added)
+        more = len(new.fit.u) - len(old.fit.u)  # it may also have some less, or others shared by all walls
         noise = self.air.allows if relaxing else self.air.tested
         left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
         left = old.fit.noise.most_likely()
         needed = STRONG if left[0].share > 0 and self.air.tested(*left) else EVIDENCE
-        return left_old - left_new - len(more) * float(np.log(len(new.fit.residuals))) <= needed
+        return left_old - left_new - more * float(np.log(len(new.fit.residuals))) <= needed
 
     def _is_late(self, one: Candidate) -> bool:
         """Whether a lag is worth it beside one of almost 0, whose fine steps alone follow a pop better."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
+from punctura.identify.growing_noise import grown
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace
 from punctura.trace.steps import rounding
@@ -93,11 +94,11 @@ class Explained:
 
 
 def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | None = None) -> Explained:
-    """Compares the residuals of a fit of all samples with the noise.
+    """Compares the residuals of a fit of all samples with the noise. Where that grows with the force, they count less.
 
     air_noise: of the same samples. Slow noise that it shows may be in tissue, too.
     """
-    residuals = trace.force - fit.misfit.forces(fit.parameters)
+    residuals = (trace.force - fit.misfit.forces(fit.parameters)) / grown(trace, segments, fit)
     air = in_air(trace, segments, fit)
     calm = trace.force[air] - (0.0 if trace.time is None else fit.parameters.nuisance[1] * trace.time[air])
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)

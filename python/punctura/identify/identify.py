@@ -16,6 +16,7 @@ from punctura.identify.depth_noise import noise_not_used, with_quiet_depth
 from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
+from punctura.identify.growing_noise import with_growing_noise
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.late_sensor import late_words, not_told_apart
 from punctura.identify.model import Model
@@ -155,6 +156,7 @@ def _identified(
         if not all_used or trace.depths is not None:
             report("all samples")
             plain = _with_all_samples(trace, few_fit, points)
+        plain = with_growing_noise(trace, segments, plain)
         report("intervals")
         others = (few_fit.parameters, *few_fit.others)
         holds = explained(trace, segments, plain, air).ok  # otherwise no search makes the intervals hold

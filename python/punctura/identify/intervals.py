@@ -32,11 +32,14 @@ class Estimate:
     low: float | None
     high: float | None
     unit: str  # SI
+    widest: float = np.inf  # an interval that is wider tells nothing of it: for an offset, the range of the force
 
     @property
     def identifiable(self) -> bool:
-        """Whether both bounds are known and, for a positive parameter, at most a factor of 10 apart."""
-        if self.low is None or self.high is None:
+        """Whether both bounds are known, the interval is not too wide to tell anything, and the bounds of a positive
+        parameter are at most a factor of 10 apart.
+        """
+        if self.low is None or self.high is None or self.high - self.low > self.widest:
             return False
         if kind_of(self.name) in ("surface", "growth", *NUISANCE):
             return True
@@ -63,10 +66,20 @@ def estimates(
         lows, highs = [low for low, _ in bounds], [high for _, high in bounds]
         low = None if None in lows else min(low for low in lows if low is not None)
         high = None if None in highs else max(high for high in highs if high is not None)
-        found.append(Estimate(name, float(values[j]), low, high, UNITS[kind_of(name)]))
+        found.append(Estimate(name, float(values[j]), low, high, UNITS[kind_of(name)], _widest(fit, name)))
     if not outwards or all(estimate.identifiable for estimate in found):
         return tuple(found)
     return tuple(_searched_again(main, j, estimate, others, watch) for j, estimate in enumerate(found))
+
+
+def _widest(fit: Fit, name: str) -> float:
+    """The width of an interval that tells nothing of a zero of the sensor, SI."""
+    trace = fit.misfit.trace
+    if name == "offset":
+        return float(np.ptp(trace.force))
+    if name == "drift" and trace.time is not None:
+        return float(np.ptp(trace.force) / np.ptp(trace.time))
+    return np.inf
 
 
 def _searched_again(

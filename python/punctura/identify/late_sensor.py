@@ -19,11 +19,14 @@ from punctura.identify.parameters import LATE, LATEST, Free
 from punctura.identify.rig import Rig
 from punctura.identify.search import Search
 from punctura.trace import Trace
+from punctura.trace.steps import rounding
+from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
 TYPICAL = {"lag": (5e-3, 20e-3), "delay": (5e-3, 20e-3), "play": (20e-6, 80e-6)}  # s, m, where a search begins
 BEGINNINGS = (0, 1.0), (1, 1.0), (1, 2.0), (1, 4.0)  # which of these, and factors of the spring, of linear models
+SHAKES = 10.0  # times the noise of the depth: a play that is less is none
 HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
 
 
@@ -37,11 +40,13 @@ def with_late_sensor(search: Search, current: Candidate) -> Candidate:
     timed = tuple(name for name in free if name != "play")
     for names in dict.fromkeys([*((name,) for name in timed), timed, tuple(free[len(timed) :])]):
         model = replace(current.model, late=(*current.model.late, *names))
-        if not names or any(one.model == model for one in search.tried):
+        if not names or any(one.model == model for one in search.tried) or model in search.refused:
             continue
         starts = [Start(free.parameters(u)) for free, u in (_late(best, names, i) for i in (0, 1))]
         found = search.fitted(" and ".join(names), model, starts)
-        if found is None or any(abs(found.fit.parameters.get(name)) > HALT * LATEST[name] for name in names):
+        if found is None or not all(_may_be(search, name, found.fit.parameters.get(name)) for name in names):
+            search.tried = [one for one in search.tried if one is not found]
+            search.refused.append(model)
             continue
         if search.rule.prefers(found, best):
             best = found
@@ -49,12 +54,19 @@ def with_late_sensor(search: Search, current: Candidate) -> Candidate:
 
 
 def _told(search: Search, name: str) -> bool:
-    """Whether the trace can show it: what is late needs a time, a play a turn."""
-    return (
-        any(stroke.kind == "out" for stroke in search.segments.strokes)
-        if name == "play"
-        else (search.trace.time is not None)
-    )
+    """Whether the trace can show it: what is late needs a time, a play a turn, at which the depth was read in time."""
+    if name != "play":
+        return search.trace.time is not None
+    held = any(finding.kind == "depth_held" for finding in search.trace.findings)
+    return not held and any(stroke.kind == "out" for stroke in search.segments.strokes)
+
+
+def _may_be(search: Search, name: str, value: float) -> bool:
+    """Whether a value that was found counts. A small play also takes noise and steps out of the depth."""
+    depth, draws = search.trace.depth, search.trace.depths
+    unknown = 0.0 if draws is None else float(draws.std(axis=0).max())
+    shaking = max(noise_of(depth), rounding(depth), unknown) if name == "play" else 0.0
+    return SHAKES * shaking <= abs(value) <= HALT * LATEST[name]
 
 
 def without_late_sensor(search: Search, current: Candidate) -> Candidate:

@@ -48,6 +48,7 @@ class Search:
     stated: Mapping[str, float] = field(default_factory=dict)  # lag and delay of the sensor, s
     rule: Rule = field(init=False)
     tried: list[Candidate] = field(default_factory=list)
+    refused: list[Model] = field(default_factory=list)  # with values that no rig has
 
     def __post_init__(self) -> None:
         self.rule = Rule(self.trace, self.segments)

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 _DEPTHS = (1e-5, 0.5)  # m, range of the depth
 _FORCES = (2e-5, 1000.0)  # N, greatest force
 _FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
+_BACK, _JUMP = 0.5, 20.0  # of the range of the depth, and times the usual step: no needle goes back like that
 _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
 
 
@@ -65,6 +66,7 @@ def examine(trace: Trace) -> Trace:
             segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N {where}; this is subtracted", True))
     found += [
+        *_stacked(trace),
         *_units(trace),
         *gaps(trace),
         *smoothed(*segments.air(trace.force)),
@@ -114,6 +116,24 @@ def _units(trace: Trace) -> Iterator[Finding]:
             other = ", or this is another test than the insertion of a needle" if value > most else ""
             text = f"the {name} is {value:.3g} {unit}, perhaps {factor}{other}"
             yield Finding("wrong_unit", f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
+
+
+def _stacked(trace: Trace) -> Iterator[Finding]:
+    """Several insertions after each other, whose withdrawals are not there: the next one may be at another place."""
+    steps = np.diff(trace.depth)
+    if not steps.any():
+        return
+    far, usual = _BACK * float(np.ptp(trace.depth)), float(np.median(np.abs(steps[steps != 0])))
+    back = np.flatnonzero((steps < -far) & (np.abs(steps) > _JUMP * usual))
+    if trace.time is not None:  # a pause of the recording, in which the needle came out, is a gap
+        pace = np.diff(trace.time)
+        back = back[pace[back] < _JUMP * float(np.median(pace))]
+    each = np.split(trace.depth, back + 1)
+    if len(back) and not (steps > far).any() and min(float(np.ptp(one)) for one in each) > far:
+        where = f"{len(back)} times, first" if len(back) > 1 else "once,"
+        text = f"the depth jumps back {where} by {-steps[back[0]] * 1e3:.3g} mm behind sample {int(back[0]) + 1}"
+        advice = "as where several insertions stand after each other. Give each a file of its own, and their folder"
+        yield Finding("stacked", f"{text}, {advice}", severe=True)
 
 
 def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from punctura.identify.air_noise import AirNoise
 from punctura.identify.causes import both_ways, way_out
 from punctura.identify.doubts import doubts
 from punctura.identify.fit import Misfit, fit
-from punctura.identify.intervals import Estimate
+from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.verdict import verdicts
@@ -252,3 +252,10 @@ def test_a_wall_that_never_lets_go_is_not_told_to_be_gone_through(deepest, advic
     said = verdicts(unknown, made, segments, fitted(made), AirNoise(made, segments))
     (told,) = [one for one in said if "stiffness" in one]
     assert advice in told and ("3.5 times the length of its tip" in told) == (deepest == 15e-3)
+
+
+def test_an_offset_that_may_be_as_large_as_the_force_is_not_identifiable():
+    made = trace()
+    offset = estimates(fitted(made), outwards=False)[-1]
+    assert offset.name == "offset" and offset.identifiable and offset.widest == float(np.ptp(made.force)) < 2
+    assert not replace(offset, low=-33.0, high=33.0).identifiable

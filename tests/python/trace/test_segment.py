@@ -190,3 +190,19 @@ def test_steps_of_which_one_is_never_seen_alone_are_found():
 @pytest.mark.parametrize("values", [SMOOTH, np.zeros(9), np.array([0.0, 1.0, 0.0, 1.0]), SMOOTH[:8]])
 def test_values_on_no_grid_have_none(values):
     assert rounding(values) == 0.0
+
+
+@pytest.mark.parametrize("timed", [False, True])
+def test_insertions_after_each_other_without_withdrawals_are_not_taken_for_one_place(timed):
+    time, depth = motion(hold=0)
+    inward = slice(0, int(np.argmax(depth)) + 1)
+    depth, force = np.tile(depth[inward], 3), np.tile(force_of(depth)[inward], 3)
+    time = np.arange(len(depth)) / 200 if timed else None
+    (found,) = [one for one in examine(Trace(depth, force, time)).findings if one.kind == "stacked"]
+    assert found.severe and "jumps back 2 times, first by 15 mm behind sample 600" in found.text
+    withdrawn = trace(noise=0.0, times=2)
+    assert not [one for one in examine(withdrawn).findings if one.kind == "stacked"]
+    if timed:  # while the needle came out, nothing was recorded
+        paused = examine(Trace(depth, force, time + 10 * (np.arange(len(depth)) // 600)))
+        kinds = {one.kind for one in paused.findings}
+        assert "gap" in kinds and "stacked" not in kinds
