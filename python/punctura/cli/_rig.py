@@ -23,7 +23,7 @@ Option = Annotated[
 ]
 _STATED = {
     "depth_noise_um": ("depth_noise", 1e-6), "lag_ms": ("lag", 1e-3), "delay_ms": ("delay", 1e-3),
-    "play_um": ("play", 1e-6),
+    "play_um": ("play", 1e-6), "slack_um": ("slack", 1e-6),
 }  # fmt: skip
 _SIGN = "\u00b1", "+-"
 _EXAMPLE = "depth_noise_um=10 or lag_ms=20+-2"
@@ -31,6 +31,7 @@ _TOLERANCES = {
     "diameter_mm": ("diameter_tolerance", 1e-3), "tip_angle_rad": ("tip_angle_tolerance", 1.0),
     "tip_angle_deg": ("tip_angle_tolerance", math.radians(1.0)), "lag_ms": ("lag_tolerance", 1e-3),
     "delay_ms": ("delay_tolerance", 1e-3), "play_um": ("play_tolerance", 1e-6),
+    "slack_um": ("slack_tolerance", 1e-6),
 }  # fmt: skip
 
 

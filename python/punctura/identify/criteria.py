@@ -83,6 +83,9 @@ class Rule:
                 return relaxing is new
         effective = min(new, old, key=lambda one: one.fit.sse).effective
         gain = old.worth(effective).bic - new.worth(effective).bic
+        late, before = set(new.model.late), set(old.model.late)
+        if late - before and before - late:  # other errors of the rig: neither is the larger model
+            return gain > 0 and new.fit.weighted_rmse < NOISY * self._noise and self._predicts(new, old)
         larger, smaller = (new, old) if len(new.fit.u) > len(old.fit.u) else (old, new)
         needed = EVIDENCE
         if set(larger.model.late) - set(smaller.model.late):
@@ -92,6 +95,10 @@ class Rule:
             return gain >= -needed if len(new.fit.u) < len(old.fit.u) else gain > 0
         if gain <= needed or self._may_be_slow_noise(new, old):
             return False
+        return self._predicts(new, old)
+
+    def _predicts(self, new: Candidate, old: Candidate) -> bool:
+        """Whether the held-out error of `new` is not worse."""
         after, before = self.held_out_error(new), self.held_out_error(old)
         return after is not None and (before is None or after <= WORSE * before)
 

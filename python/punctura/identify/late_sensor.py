@@ -13,20 +13,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.criteria import STRONG, Candidate, worth_a_fit
-from punctura.identify.fit import Start, squares_beyond
+from punctura.identify.fit import Fit, Start, squares_beyond
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import LATE, LATEST, Free
 from punctura.identify.rig import Rig
 from punctura.identify.search import Search
+from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import Trace
 from punctura.trace.steps import rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
-TYPICAL = {"lag": (5e-3, 20e-3), "delay": (5e-3, 20e-3), "play": (20e-6, 80e-6)}  # s, m, where a search begins
+# Where a search begins, s and m.
+TYPICAL = {"lag": (5e-3, 20e-3), "delay": (5e-3, 20e-3), "play": (20e-6, 80e-6), "slack": (20e-6, 80e-6)}
 BEGINNINGS = (0, 1.0), (1, 1.0), (1, 2.0), (1, 4.0)  # which of these, and factors of the spring, of linear models
-SHAKES = 10.0  # times the noise of the depth: a play that is less is none
+OF_DRIVE = "play", "slack"
+SHAKES, SEEN = 10.0, 3.0  # times the noise of the depth, and its own error: a play that is less is none
 HALT = 0.9  # of the greatest lag: a search that ends beyond does not find one
 
 
@@ -37,16 +40,16 @@ def with_late_sensor(search: Search, current: Candidate) -> Candidate:
     if search.ended or not free or not _may_be_late(current, free):
         return current
     best = current
-    timed = tuple(name for name in free if name != "play")
-    for names in dict.fromkeys([*((name,) for name in timed), timed, tuple(free[len(timed) :])]):
+    timed = tuple(name for name in free if name not in OF_DRIVE)
+    for names in dict.fromkeys([*((name,) for name in timed), timed, *((name,) for name in free if name in OF_DRIVE)]):
         model = replace(current.model, late=(*current.model.late, *names))
         if not names or any(one.model == model for one in search.tried) or model in search.refused:
             continue
         starts = [Start(free.parameters(u)) for free, u in (_late(best, names, i) for i in (0, 1))]
         found = search.fitted(" and ".join(names), model, starts)
-        if found is None or not all(_may_be(search, name, found.fit.parameters.get(name)) for name in names):
+        if found is None or not all(_may_be(search, name, found.fit) for name in names):
             search.tried = [one for one in search.tried if one is not found]
-            search.refused.append(model)
+            search.refused.append(model)  # it must not be chosen as the best of all
             continue
         if search.rule.prefers(found, best):
             best = found
@@ -55,18 +58,23 @@ def with_late_sensor(search: Search, current: Candidate) -> Candidate:
 
 def _told(search: Search, name: str) -> bool:
     """Whether the trace can show it: what is late needs a time, a play a turn, at which the depth was read in time."""
-    if name != "play":
+    if name not in OF_DRIVE:
         return search.trace.time is not None
     held = any(finding.kind == "depth_held" for finding in search.trace.findings)
     return not held and any(stroke.kind == "out" for stroke in search.segments.strokes)
 
 
-def _may_be(search: Search, name: str, value: float) -> bool:
+def _may_be(search: Search, name: str, found: Fit) -> bool:
     """Whether a value that was found counts. A small play also takes noise and steps out of the depth."""
-    depth, draws = search.trace.depth, search.trace.depths
-    unknown = 0.0 if draws is None else float(draws.std(axis=0).max())
-    shaking = max(noise_of(depth), rounding(depth), unknown) if name == "play" else 0.0
-    return SHAKES * shaking <= abs(value) <= HALT * LATEST[name]
+    value = found.parameters.get(name)
+    if name in OF_DRIVE:
+        depth, draws = search.trace.depth, search.trace.depths
+        unknown = 0.0 if draws is None else float(draws.std(axis=0).max())
+        j = found.free.names.index(name)
+        error = float(np.sqrt(max(Uncertainty(found).covariance[j, j], 0.0)))
+        if value < max(SHAKES * max(noise_of(depth), rounding(depth), unknown), SEEN * error):
+            return False
+    return abs(value) <= HALT * LATEST[name]
 
 
 def without_late_sensor(search: Search, current: Candidate) -> Candidate:
@@ -80,24 +88,37 @@ def without_late_sensor(search: Search, current: Candidate) -> Candidate:
     return current
 
 
-TIMES = {"delay": "play", "play": "delay"}  # one by the way and one by the time, which a turn alone tells apart
-
-
 def not_told_apart(search: Search, current: Candidate) -> Iterator[str]:
-    """A sentence if a delay explains the trace as well as the play that was found, or the other way round."""
-    for name in current.model.late:
-        late = tuple(TIMES.get(one, one) if one == name else one for one in current.model.late)
-        wanted = replace(current.model, late=late)
-        others = [one for one in search.tried if one.model == wanted and name in TIMES]
-        effective = current.effective
-        if any(one.worth(effective).bic - current.worth(effective).bic < STRONG for one in others):
-            unit = "um" if name == "delay" else "ms"
-            yield (
-                f"The trace cannot tell the {name} from a {TIMES[name]}, which explains it as well. The intervals are "
-                "those of the first. To tell: insert at another speed, or turn back and forth inside the tissue; the "
-                "way of a play does not depend on the speed. If the rig has only the first, state that "
-                f"(--rig {TIMES[name]}_{unit}=0)."
-            )
+    """A sentence if the trace cannot tell what was found from another error of the rig, which is fitted instead."""
+    drive = [name for name in current.model.late if name in OF_DRIVE]
+    if drive and search.trace.time is None:
+        yield (
+            f"Without time, a sensor that is late looks as the {drive[0]} of a drive does. If it is late, the "
+            "intervals do not hold: record the time."
+        )
+    if len(current.model.late) != 1 or not (drive or any(_told(search, name) for name in OF_DRIVE)):
+        return
+    (name,) = current.model.late
+    known = (*search.stated, name)
+    alike = []
+    for other in (one for one in LATE if one not in known and _told(search, one)):
+        if not (drive or other in OF_DRIVE):
+            continue
+        model = replace(current.model, late=(other,))
+        one = next((one for one in search.tried if one.model == model), None)
+        if one is None and model not in search.refused:
+            here = current.fit.parameters.with_values({name: 0.0})
+            one = search.fitted(other, model, [Start(here.with_values({other: at})) for at in TYPICAL[other]])
+            one = one if one is not None and _may_be(search, other, one.fit) else None
+        if one is not None and one.worth(current.effective).bic - current.worth(current.effective).bic < STRONG:
+            alike.append(other)
+    if alike:
+        yield (
+            f"The trace cannot tell the {name} from a {' or a '.join(alike)}, which explains it as well. The intervals "
+            "are those of the first. To tell: insert at another speed, or turn back and forth inside the tissue; the "
+            "way of a play does not depend on the speed. State what the rig has not (--rig "
+            f"{alike[0]}_{'um' if alike[0] in OF_DRIVE else 'ms'}=0)."
+        )
 
 
 def late_words(found: Mapping[str, Estimate], trace: Trace, rig: Rig) -> Iterator[str]:
@@ -105,10 +126,11 @@ def late_words(found: Mapping[str, Estimate], trace: Trace, rig: Rig) -> Iterato
     if trace.time is None and (rig.lag or rig.delay):
         yield "The stated lag or delay of the sensor is not taken into account: the trace has no time. Record it."
     for name, one in found.items():
-        if name == "play":
+        if name in OF_DRIVE:
+            where = "it turns, the needle stays" if name == "play" else "the force changes its sign, the needle slips"
             yield (
-                f"The depth has play, as the drive of a rig has: where it turns, the needle stays for {_of(one)}. The "
-                "fit takes it into account. If the rig has none, state it (--rig play_um=0)."
+                f"The depth is as if the drive had play: where {where} for {_of(one)}. The fit takes it into account. "
+                f"If the rig has none, state it (--rig {name}_um=0)."
             )
             continue
         late = one.value > 0

@@ -15,10 +15,10 @@ Array = NDArray[np.float64]
 
 MEMBRANE = TraceModel.membrane_names
 COUPLING = TraceModel.coupling_names
-LATE = ("lag", "delay", "play")  # s: of the force behind the depth; m: of the needle behind the drive, at a turn
+LATE = ("lag", "delay", "play", "slack")  # s: of the force behind the depth; m: of the needle behind the drive
 NUISANCE = ("offset", "drift", *LATE)  # of the sensor
-LATEST = {"lag": 0.2, "delay": 0.2, "play": 1e-3}  # s, m: what is more is no error of a rig
-UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s", "play": "m"}
+LATEST = {"lag": 0.2, "delay": 0.2, "play": 1e-3, "slack": 1e-3}  # s, m: what is more is no error of a rig
+UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s", "play": "m", "slack": "m"}
 _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",
@@ -30,6 +30,7 @@ _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
     "relaxation_1_stiffness": (0.0, 1e7), "relaxation_1_time": (1e-3, 1e3),
     "relaxation_2_stiffness": (0.0, 1e7), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
     "lag": (0.0, LATEST["lag"]), "delay": (-LATEST["delay"], LATEST["delay"]), "play": (0.0, LATEST["play"]),
+    "slack": (0.0, LATEST["slack"]),
 }  # fmt: skip
 
 
@@ -47,10 +48,10 @@ class Parameters:
         return float(self.vector()[indices(name, len(self.membranes))[0]])
 
     @property
-    def late(self) -> tuple[float, float, float]:
-        """Lag and delay of the sensor, s, and play of the drive, m."""
-        lag, delay, play = self.nuisance[-len(LATE) :].tolist()
-        return lag, delay, play
+    def late(self) -> tuple[float, float, float, float]:
+        """Lag and delay of the sensor, s; play of the drive that is crossed at a turn, and under another force, m."""
+        lag, delay, play, slack = self.nuisance[-len(LATE) :].tolist()
+        return lag, delay, play, slack
 
     def vector(self) -> Array:
         """All values in one vector: coupling, membranes, nuisance."""

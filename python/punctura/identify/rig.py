@@ -20,13 +20,15 @@ class Rig:
     lag: float | None = None  # s, time constant of the force sensor's filter
     delay: float | None = None  # s, of the force behind the depth; negative if the depth is late
     play: float | None = None  # m, by which the needle stays behind where the drive turns
+    slack: float | None = None  # m, by which it slips where the force on it changes the sign
     lag_tolerance: float = 0.0  # s
     delay_tolerance: float = 0.0  # s
     play_tolerance: float = 0.0  # m
+    slack_tolerance: float = 0.0  # m
 
     @property
     def late(self) -> dict[str, float]:
-        """What is stated of the parameters `lag` and `delay`, s, and `play`, m."""
+        """What is stated of the parameters `lag` and `delay`, s, and `play` and `slack`, m."""
         return {name: value for name in LATE if (value := getattr(self, name)) is not None}
 
     def values(self) -> tuple[RigValue, ...]:
@@ -36,7 +38,7 @@ class Rig:
                      for name, value in every.items() if value)  # fmt: skip
 
 
-_UNITS = {"lag": "s", "delay": "s", "play": "m", "diameter": "m", "tip_angle": "rad"}
+_UNITS = {"lag": "s", "delay": "s", "play": "m", "slack": "m", "diameter": "m", "tip_angle": "rad"}
 UNKNOWN = Rig()
 
 
@@ -47,7 +49,7 @@ def check(rig: Rig, needle: Needle) -> None:
     beside = {name: LATEST[name] if name in rig.late else math.ulp(0.0) for name in LATE}  # a tolerance needs a value
     bounds = {
         "depth_noise": (0.0, math.inf, "a number of m, 0 or more"),
-        **{name: (0.0, LATEST[name], f"0 or more, and {most[name]}") for name in ("lag", "play")},
+        **{name: (0.0, LATEST[name], f"0 or more, and {most[name]}") for name in ("lag", "play", "slack")},
         "delay": (-LATEST["delay"], LATEST["delay"], f"{most['delay']}, also if it is negative"),
         **{
             f"{name}_tolerance": (0.0, beside[name], f"0 without a {name}; else 0 or more, and {most[name]}")

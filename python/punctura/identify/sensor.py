@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 FINE = 8  # steps of a filter from sample to sample
 SHIFT = 1e-5  # s, of a lag or a delay, for a derivative
 STEP = 1e-7  # m, the same of a play
+KEPT = 3  # models, of the last motions
 OUTSIDE, JUST, SLOWLY = 0.3, 1e-6, 1e-3  # m, m, m/s: from where the needle came to the first sample, and how fast
 BEYOND, LAST = 10.0, 5  # s; samples: at both ends a motion goes on as these samples show it
 
@@ -53,14 +54,15 @@ def played(depth: Array, play: float) -> Array:
 class SensedModel:
     """The model's force along a trace, late as a lag and a delay make it, behind a drive with play; with derivatives.
 
-    A delay is one of the force behind the depth: the force of a sample belongs to the depth before it.
+    A delay is one of the force behind the depth: the force of a sample belongs to the depth before it. A slack is a
+    play that the needle crosses where its force changes the sign, as on a slide that moves easily.
     """
 
     def __init__(self, needle: Needle, depth: Array, time: Array | None) -> None:
         """depth, time: (n,), m and s. Without time, the force is not late."""
         self._needle, self._depth, self._time = needle, depth, time
         self._prompt = _CameIn(needle, depth, time)
-        self._moved: tuple[float, int, float, _CameIn] | None = None  # delay, s, steps, and play, m, of the last one
+        self._moved: dict[tuple[float, int, float], _CameIn] = {}  # by delay, s, steps, and play, m; the last ones
         if time is not None:
             near = (0, LAST - 1), (-LAST, -1)
             self._slopes = [(depth[j] - depth[i]) / (time[j] - time[i]) for i, j in near]
@@ -68,51 +70,63 @@ class SensedModel:
 
     def forces(self, p: Parameters) -> Array:
         """The force at every sample (n,), N."""
-        lag, delay, play = p.late
-        if self._time is None:
-            lag = delay = 0.0
-        if lag == delay == play == 0:
-            return self._prompt.forces(p, False)[0]
-        return self._filtered(self._model(delay, lag, play).forces(p, False)[0], lag)
+        lag = 0.0 if self._time is None else p.late[0]
+        return self._filtered(self._unfiltered(p, lag, False)[0], lag)
 
     def jacobian(self, p: Parameters, kinds: Sequence[str], late: Sequence[str]) -> tuple[Array, Array]:
-        """Derivatives (n, q) by the q parameters of coupling and membranes, and those by lag, delay and play (n, 3).
+        """Derivatives (n, q) by the q parameters of coupling and membranes, and those by LATE (n, 4).
 
-        Only those by these kinds, and by these of the latter, are computed; others are 0.
+        Only those by these kinds, and by these of LATE, are computed; others are 0.
         """
         by_late = np.zeros((len(self._depth), len(LATE)))
-        lag, delay, play = p.late
-        if self._time is None:
-            lag, delay, late = 0.0, 0.0, [one for one in late if one == "play"]
-        if not (late or lag or delay or play):
-            return self._prompt.forces(p, by=kinds)[1], by_late
-        force, columns = self._model(delay, max(lag, SHIFT if "lag" in late else 0.0), play).forces(p, by=kinds)
-        if "lag" in late:
-            low, high = max(lag - SHIFT, 0.0), lag + SHIFT
-            by_late[:, 0] = (self._filtered(force, high) - self._filtered(force, low)) / (high - low)
-        if "delay" in late:
-            before, after = (self.forces(p.with_values({"delay": delay + shift})) for shift in (-SHIFT, SHIFT))
-            by_late[:, 1] = (after - before) / (2 * SHIFT)
-        if "play" in late:
-            low, high = max(play - STEP, 0.0), play + STEP
-            before, after = (self.forces(p.with_values({"play": one})) for one in (low, high))
-            by_late[:, 2] = (after - before) / (high - low)
+        late = late if self._time is not None else [one for one in late if one in ("play", "slack")]
+        lag = 0.0 if self._time is None else p.late[0]
+        force, columns = self._unfiltered(p, max(lag, SHIFT if "lag" in late else 0.0), True, kinds)
+        for name in late:
+            step = SHIFT if name in ("lag", "delay") else STEP
+            low, high = p.get(name) - step, p.get(name) + step
+            low = low if name == "delay" else max(low, 0.0)
+            if name == "lag":
+                before, after = self._filtered(force, low), self._filtered(force, high)
+            else:
+                before, after = (self.forces(p.with_values({name: one})) for one in (low, high))
+            by_late[:, LATE.index(name)] = (after - before) / (high - low)
         known = np.flatnonzero(columns.any(axis=0))  # the rest is 0 behind the filter, too
         given = np.zeros((len(self._depth), columns.shape[1]))
         given[:, known] = self._filtered(columns[:, known], lag)
         return given, by_late
 
+    def _unfiltered(self, p: Parameters, lag: float, jacobian: bool, by: Sequence[str] = ()) -> tuple[Array, Array]:
+        """The force in front of a filter with this lag, in its steps, and its derivatives."""
+        _, delay, play, slack = p.late
+        if self._time is None:
+            delay = 0.0
+        force, columns = self._model(delay, lag, play).forces(p, jacobian, by)
+        if slack == 0:
+            return force, columns
+        across, others = self._model(delay, lag, play + slack).forces(p, jacobian, by)
+        pushed, pulled = force > 0, across < 0  # between them the needle is free
+        given = np.where(pushed, force, 0.0) + np.where(pulled & ~pushed, across, 0.0)
+        if not jacobian:
+            return given, columns
+        return given, np.where(pushed[:, None], columns, np.where((pulled & ~pushed)[:, None], others, 0.0))
+
     def _model(self, delay: float, lag: float, play: float) -> _CameIn:
         """The model along the motion before the delay, in fine steps if a filter follows."""
         steps = FINE if lag > 0 else 1
-        if self._moved is None or self._moved[:3] != (delay, steps, play):
+        if delay == play == 0 and steps == 1:
+            return self._prompt
+        key = delay, steps, play
+        if key not in self._moved:
             depth, times = played(self._depth, play), self._time
             if times is not None and (delay or steps > 1):
                 times = self._fine(steps)
                 ends = depth[0] - BEYOND * self._slopes[0], depth[-1] + BEYOND * self._slopes[1]
                 depth = np.interp(times - delay, self._times, np.concatenate((ends[:1], depth, ends[1:])))
-            self._moved = delay, steps, play, _CameIn(self._needle, depth, times)
-        return self._moved[3]
+            while len(self._moved) >= KEPT:
+                del self._moved[next(iter(self._moved))]
+            self._moved[key] = _CameIn(self._needle, depth, times)
+        return self._moved[key]
 
     def _fine(self, steps: int) -> Array:
         """So many times, s, from sample to sample."""

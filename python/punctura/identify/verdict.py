@@ -12,11 +12,11 @@ from punctura.trace import Segments, Trace
 
 # What shows a parameter: (what the trace must lack for this advice, advice). The first one that fits is given.
 THROUGH = ("pop", "insert until the tip is through")
-DEEP = 2.0  # lengths of the tip behind the contact: there the tip is through, whether the force has dropped or not
+DEEP = 2.0  # lengths of the tip in the wall: there the tip is through, whether the force has dropped or not
 NEVER = (
-    "the needle went {:.2g} times the length of its tip behind the contact, and the force never dropped. If the wall "
-    "is not as thick as that, it has another law, and a deeper insertion tells no more: compare punctura rivals, or "
-    "give the wall a measured profile (docs/measured-tissue.md)"
+    "with the fitted spring, the tip went {:.2g} times its length into the wall, and the force never dropped. If the "
+    "wall is not as thick as that, it has another law: compare punctura rivals, or give the wall a measured profile "
+    "(docs/measured-tissue.md)"
 )
 WITHDRAWAL = ("withdrawal", "record the withdrawal too: it shows the friction without the tip")
 BEFORE = ("air", "begin well before contact")
@@ -50,6 +50,7 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "lag": (QUICK,),
     "delay": (QUICK,),
     "play": (("", "turn a second time inside the tissue, at another speed"),),
+    "slack": (("", "turn a second time inside the tissue, at another speed"),),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
@@ -111,7 +112,8 @@ def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Seg
     needle = fit.parameters.needle
     tip = needle.diameter / float(np.tan(needle.tip_angle))
     begin = trace.depth[0 if segments.contact is None else segments.contact]
-    lengths = float(trace.depth.max() - begin) / tip
+    given_way = (trace.force - fit.parameters.get("offset")) / fit.parameters.get("coupling_stiffness")
+    lengths = float((trace.depth - given_way).max() - begin) / tip  # of the tip itself, behind the spring
     for estimate in estimates:
         if not estimate.identifiable:
             known = _EXPERIMENTS.get(kind_of(estimate.name), ())

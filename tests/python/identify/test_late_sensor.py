@@ -86,7 +86,7 @@ def test_a_prompt_sensor_is_not_called_late(given):
     for seed in (1, 2, 3):
         trace, needle, _ = random_trace(seed, given)
         found = identify(trace, needle)
-        assert found.rig == () and found.parameters.late == (0.0, 0.0, 0.0)
+        assert found.rig == () and found.parameters.late == (0.0, 0.0, 0.0, 0.0)
         assert not any("comes late" in one for one in found.verdicts)
 
 
@@ -109,7 +109,7 @@ def test_a_stated_lag_counts_and_its_tolerance_reaches_the_intervals():
     sure, loose = (identify(trace, needle, 1, rig=Rig(lag=LATE, delay=0.0, lag_tolerance=more)) for more in (0, 5e-3))
     assert [str(one) for one in sure.rig] == ["lag 0.02 s, stated"]
     assert [one.name for one in loose.rig] == ["lag", "lag_tolerance"]
-    assert "lag" not in [one.name for one in sure.estimates] and sure.parameters.late == (LATE, 0.0, 0.0)
+    assert "lag" not in [one.name for one in sure.estimates] and sure.parameters.late == (LATE, 0.0, 0.0, 0.0)
     assert holds(sure, "coupling_stiffness", truth["coupling_stiffness"])
     one, other = (of(found, "coupling_stiffness") for found in (sure, loose))
     assert other.value == one.value and other.high - other.low > 1.5 * (one.high - one.low)
