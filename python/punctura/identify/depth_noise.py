@@ -42,7 +42,7 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
         return trace, 0.0
     shaking = noise or 0.0
     if noise is None and _fast(trace):
-        shaking, rounded = steady_noise(trace.depth), _rounding(trace.depth)
+        shaking, rounded = steady_noise(trace.depth), rounding_noise(trace.depth)
         if shaking <= NOISIER * rounded and (found := _between_steps(trace, rounded)):
             return found, rounded
     if not _matters(trace, shaking):
@@ -71,7 +71,7 @@ def _drawn(trace: Trace, noise: float, quiet: Array, variances: Array, weights: 
     return replace(trace, depth=noise * quiet, depths=noise * (quiet + _draws(variances, weights)))
 
 
-def _rounding(depth: Array) -> float:
+def rounding_noise(depth: Array) -> float:
     """The standard deviation of the depth's rounding, m; 0 for a machine whose speed is a step a sample."""
     size = rounding(depth)
     bent = np.abs(np.diff(depth, 2)) > size

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.identify.criteria import STRONG, Candidate, worth_a_fit
+from punctura.identify.depth_noise import rounding_noise
 from punctura.identify.fit import Fit, Start, squares_beyond
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import LATE, LATEST, Free
@@ -20,7 +21,6 @@ from punctura.identify.rig import Rig
 from punctura.identify.search import Search
 from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import Trace
-from punctura.trace.steps import rounding
 from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ def _may_be(search: Search, name: str, found: Fit) -> bool:
         unknown = 0.0 if draws is None else float(draws.std(axis=0).max())
         j = found.free.names.index(name)
         error = float(np.sqrt(max(Uncertainty(found).covariance[j, j], 0.0)))
-        if value < max(SHAKES * max(noise_of(depth), rounding(depth), unknown), SEEN * error):
+        if value < max(SHAKES * max(noise_of(depth), rounding_noise(depth), unknown), SEEN * error):
             return False
     return abs(value) <= HALT * LATEST[name]
 

@@ -59,6 +59,13 @@ def test_play_is_found_and_no_wall_and_no_delay_explains_it(seed, time):
     assert any("a sensor that is late looks as the play" in one for one in found.verdicts) == (not time)
 
 
+@pytest.mark.parametrize("seed", [1001, 1002])
+def test_the_way_of_a_machine_from_sample_to_sample_hides_no_play(seed):
+    made, needle, _ = random_trace(seed, Conditions(machine=True, play=PLAY))
+    found = identify(made, needle)
+    assert found.parameters.late[2] == pytest.approx(PLAY, rel=0.1) and len(found.parameters.membranes) == 1
+
+
 def test_a_trace_without_play_has_none_and_stated_play_is_used():
     found = identify(trace(play=0.0), NEEDLE)
     assert found.rig == () and found.parameters.late == (0.0, 0.0, 0.0, 0.0)
