@@ -146,6 +146,18 @@ def test_without_webgl_the_slice_is_the_stage_and_a_drag_along_its_needle_goes_t
         expect(marks(page)).not_to_have_count(0)
 
 
+def test_without_webgl_an_exercise_takes_the_keys_and_the_curve_shows_its_goal(browser, studio):
+    with opened(browser, studio.url, script=NO_WEBGL, bench=False) as page:
+        page.get_by_role("button", name="More").click()
+        ready(page)
+        tab(page, "Exercises")
+        page.locator("[data-exercise=venipuncture]").get_by_role("button", name="Start").click()
+        expect(page.locator(".stage-goal")).to_have_text("Goal: the vein")
+        expect(page.locator(".view-main")).to_be_focused()
+        page.keyboard.press("ArrowDown")
+        expect(page.locator(".stage-keys")).to_be_visible()
+
+
 def test_with_a_device_the_stage_has_the_state_of_the_force_and_its_button(page):
     simulated, real = '"simulated":true', '"simulated":false'
 

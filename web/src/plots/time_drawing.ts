@@ -1,3 +1,4 @@
+import { tickAt } from "../state/history.ts";
 import { feltForce, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { drawMean } from "./band_mean.ts";
@@ -13,7 +14,6 @@ import { drawReading } from "./reading.ts";
 import { TimeLines } from "./time_lines.ts";
 import { drawFound, drawLimits, drawMarks, drawStates, foundCurve, limitCurve } from "./time_marks.ts";
 import { hasThumb, MM, THUMB_DASH, type TimePicture, WIDE } from "./time_picture.ts";
-import { tickAt } from "./window.ts";
 
 const FORCE_SHARE = 0.58;
 const SCAN_S = 0.5; // while ticks are added, the ranges see at least so often that old ones have left the window

@@ -1,16 +1,4 @@
-import type { History } from "../state/history.ts";
-
-/** The first tick at or after `time` (s); `end` if there is none. */
-export function tickAt(history: History, time: number): number {
-  let low = history.first;
-  let high = history.end;
-  while (low < high) {
-    const middle = Math.floor((low + high) / 2);
-    if (history.timeOf(middle) < time) low = middle + 1;
-    else high = middle;
-  }
-  return low;
-}
+import { type History, tickAt } from "../state/history.ts";
 
 /** The tick nearest to `time` (s); null if the history is empty. */
 export function nearestTick(history: History, time: number): number | null {

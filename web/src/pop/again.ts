@@ -1,5 +1,6 @@
 import type { App } from "../state/app.ts";
 import { copiedHistory } from "../state/frozen.ts";
+import { tickAt } from "../state/history.ts";
 import { type Excerpt, keptWords, Source } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 
@@ -52,15 +53,15 @@ function excerptOf(source: Source, title: string, history: Source["history"], ex
  */
 export function showMoment(app: App, recording: Source, time: number): boolean {
   const { history, scene } = recording;
-  const rate = scene.value?.rate ?? 0;
-  const tick = history.first + Math.round((time - history.timeOf(history.first)) * rate);
-  if (!rate || !(tick >= history.first && tick < history.end)) return false;
+  // A loop that was late has fewer ticks in a second than its rate says.
+  const tick = tickAt(history, time);
+  if (!scene.value || tick === history.end) return false;
   const excerpt = {
     of: app.live,
     event: null,
     tick,
-    first: Math.max(history.first, tick - Math.round(BEFORE_MOMENT * rate)),
-    last: Math.min(history.end - 1, tick + Math.round(AFTER_MOMENT * rate)),
+    first: tickAt(history, time - BEFORE_MOMENT),
+    last: Math.min(history.end - 1, tickAt(history, time + AFTER_MOMENT)),
   };
   app.source.value = excerptOf(recording, recording.title, history, excerpt);
   return true;

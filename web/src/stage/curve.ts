@@ -5,6 +5,8 @@ import { Polyline } from "../plots/kit/polyline.ts";
 import { label, niceStep, Scale, ticks } from "../plots/kit/scale.ts";
 import { colourOf, type Theme, watchTheme } from "../plots/kit/theme.ts";
 import type { DepthScale } from "../scene/framing.ts";
+import { bandOf } from "../scene/goal_mark.ts";
+import type { Goal } from "../state/app.ts";
 import type { Band } from "../tissue/bands.ts";
 import { ABOVE_MM, type Attempt, type Felt } from "./attempt.ts";
 
@@ -24,6 +26,8 @@ interface Shown {
   /** Where the view has these depths, and where the curve's box begins in it, px; null: the curve's own scale. */
   readonly beside: { readonly scale: DepthScale; readonly top: number } | null;
   readonly now: Felt | null;
+  /** What an exercise asks to reach, where no view shows it. */
+  readonly goal: Goal | null;
 }
 
 /** The felt force to the right against the depth downwards, on the layers. Draws only what is new. */
@@ -33,6 +37,7 @@ export class CurvePicture {
   readonly marks = element("div", { class: "stage-marks" });
   private readonly canvas = element("canvas", { "aria-hidden": "true" });
   private readonly head = element("span", { class: "stage-head", "aria-hidden": "true" });
+  private readonly goal = element("span", { class: "stage-goal", hidden: true });
   private readonly pen: CanvasPen;
   private readonly force = new Scale();
   private readonly piece = new Polyline(64);
@@ -48,7 +53,7 @@ export class CurvePicture {
   private axis = 0; // px, where the lines of the force begin, below its numbers
 
   constructor() {
-    this.root = element("div", { class: "stage-curve" }, this.canvas, this.head, this.marks);
+    this.root = element("div", { class: "stage-curve" }, this.canvas, this.goal, this.head, this.marks);
     this.pen = new CanvasPen(this.canvas.getContext("2d")!);
     watchTheme((theme) => {
       this.theme = theme;
@@ -87,6 +92,7 @@ export class CurvePicture {
     }
     this.drawNew(attempt, theme);
     this.drawHead(shown.now);
+    this.drawGoal(shown);
     return anew;
   }
 
@@ -192,6 +198,18 @@ export class CurvePicture {
     this.points = path.count;
     const { axis, width, height } = this;
     pen.within(AXIS, axis, width - AXIS, height - axis, () => pen.line(piece, { colour: theme.text, width: 2.5 }));
+  }
+
+  private drawGoal({ goal, bands }: Shown): void {
+    const { style } = this.goal;
+    this.goal.hidden = goal === null;
+    if (!goal) return;
+    const [top, bottom] = bandOf(goal).map((mm) => this.depth(Math.min(mm, bands.at(-1)?.bottom ?? mm)));
+    const words = `Goal: ${goal.name}`;
+    if (this.goal.textContent !== words) this.goal.textContent = words;
+    style.left = `${AXIS}px`;
+    style.top = `${top!.toFixed(0)}px`;
+    style.height = `${(bottom! - top!).toFixed(0)}px`;
   }
 
   private drawHead(now: Felt | null): void {

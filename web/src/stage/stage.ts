@@ -22,6 +22,7 @@ export const stage: Panel = (root, app) => {
   const page = pageOf(app);
   const framing = framingOf(app);
   const view = root.querySelector<HTMLElement>(":scope > .view")!;
+  const picture = view.querySelector<HTMLElement>(".view-main > canvas")!; // hidden without WebGL
   const words = element("p", { class: "stage-sentence", role: "status" });
   const force = element("output", { class: "stage-number" });
   const name = element("span", { class: "stage-name" });
@@ -63,6 +64,9 @@ export const stage: Panel = (root, app) => {
   new ResizeObserver(measure).observe(view);
   const thumb = view.querySelector<HTMLElement>(".thumb-button")!;
   const thumbHome = thumb.parentElement!;
+  handOf(app).barred.watch((why) => {
+    keys.hidden = why !== null;
+  });
   page.watch((now) => {
     box.hidden = now !== "stage";
     if (now === "stage") group.after(thumb);
@@ -108,7 +112,9 @@ export const stage: Panel = (root, app) => {
     if (built && !hidden) {
       const attempt = attempts.shown();
       const most = ROOM * Math.max(strongestAt(source.value, tick), attempt.most);
-      const anew = curve.show({ attempt, bands, most, beside: besideOf(framing.depths.value, view, curve.root), now });
+      const beside = besideOf(framing.depths.value, view, curve.root);
+      const goal = picture.hidden ? app.goal.value : null;
+      const anew = curve.show({ attempt, bands, most, beside, now, goal });
       marks.show(attempt, anew);
     }
     if (time - wordsAt < WORDS_MS) return;

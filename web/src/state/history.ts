@@ -101,3 +101,15 @@ export class History {
     }
   }
 }
+
+/** The first tick at or after `time` (s); `end` if there is none. */
+export function tickAt(history: History, time: number): number {
+  let low = history.first;
+  let high = history.end;
+  while (low < high) {
+    const middle = Math.floor((low + high) / 2);
+    if (history.timeOf(middle) < time) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { nearestTick, tickAt, Window } from "../../src/plots/window.ts";
-import { History } from "../../src/state/history.ts";
+import { nearestTick, Window } from "../../src/plots/window.ts";
+import { History, tickAt } from "../../src/state/history.ts";
 import { history } from "../support/fill_history.ts";
 
 describe("a window of time", () => {

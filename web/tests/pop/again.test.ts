@@ -92,10 +92,19 @@ it("shows the second around the worst moment of a recorded attempt in 3 s, and t
   expect(showMoment(app, recording, start + 9)).toBe(false); // the page does not hold so much
   expect(showMoment(app, recording, start + 2)).toBe(true);
   const showing = showingOf(app, app.source.value);
-  expect([showing.first, showing.last, showing.speed]).toEqual([1300, 2300, 1 / 3]);
+  expect([showing.first, showing.last, showing.speed]).toEqual([1301, 2301, 1 / 3]); // their times have 32 bits
   expect([showing.kind, showing.backWords]).toEqual(["The moment, slowly:", "Back to live"]);
   leaveExcerpt(app);
   expect(app.source.value).toBe(app.live);
+});
+
+it("finds the worst moment of an attempt whose loop was late, and had fewer ticks in its seconds", () => {
+  const recording = new Source("attempt", false, 4000);
+  recording.scene.value = app.live.scene.value;
+  push(recording, 2000);
+  recording.history.push({ ...batch(2000, 1000, 1), firstTime: 4 }); // s
+  expect(showMoment(app, recording, 4.5)).toBe(true);
+  expect(app.source.value.excerpt?.tick).toBe(2500);
 });
 
 it("a ring grows from the pop on, and is gone after it; without motion it stays as it is", () => {

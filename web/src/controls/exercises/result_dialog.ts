@@ -52,7 +52,7 @@ export function openResult(
       ),
       element("p", { class: "quiet" }, [result.person, dateText(result.date)].filter(Boolean).join(" · ")),
     ),
-    element("div", { class: "why" }, ...result.reasons.map((reason) => element("p", {}, reason))),
+    element("div", { class: "why" }, ...result.reasons.map((reason) => element("p", {}, unbroken(reason)))),
     ...coachPart(result, result.recording ? watchButton : undefined),
     element(
       "div",

@@ -42,8 +42,8 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
   const begin = (): void => {
     const running = app.exercise.value?.running ?? false;
     if (running && !begun && app.control.value.you) {
-      const view = document.querySelector<HTMLElement>(".view-main > canvas");
-      view?.focus({ preventScroll: true });
+      const view = document.querySelector<HTMLElement>(".view-main > canvas:not([hidden]), .view-main[tabindex]");
+      view?.focus({ preventScroll: true }); // the second one is without WebGL
       view?.scrollIntoView({ block: "start" });
     }
     begun = running && app.control.value.you;
