@@ -35,6 +35,7 @@ FOR = {
 }
 HEADER = {name: header for header, names in FOR.items() for name in names.split()}
 NAME = re.compile(r"\bstd::(\w+)")
+QUOTED = re.compile(r"""'(?:[^'\\]|\\.)'|"(?:[^"\\]|\\.)*\"""")
 
 
 def findings(root: Path) -> list[Finding]:
@@ -51,7 +52,7 @@ def findings(root: Path) -> list[Finding]:
     for file in sorted([*(root / "core").rglob("*.hpp"), *(root / "runtime").rglob("*.hpp")]):
         path, lines = file.relative_to(root).as_posix(), file.read_text(encoding="utf-8").splitlines()
         for number, line in enumerate(lines, 1):
-            needed = {HEADER[name] for name in NAME.findall(line.split("//")[0]) if name in HEADER}
+            needed = {HEADER[name] for name in NAME.findall(QUOTED.sub("", line).split("//")[0]) if name in HEADER}
             found += [Finding(path, number, f"include <{header}>") for header in sorted(needed - given(path))]
     return found
 

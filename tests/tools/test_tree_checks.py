@@ -54,7 +54,8 @@ def test_a_standard_header_that_is_missing_is_found_and_one_that_our_headers_inc
     root = plant(
         tmp_path,
         core__punctura__a_dot_hpp="#include <vector>\n#include <array>\n",
-        core__punctura__b_dot_hpp='#include "punctura/a.hpp"\nstd::vector<std::string> x;  // std::map\nstd::byte y;\n',
+        core__punctura__b_dot_hpp='#include "punctura/a.hpp"\nstd::vector<std::string> x;  // std::map\nstd::byte y;\n'
+        'f("a \\" std::map");\n',
         core__punctura__c_dot_cpp="std::map<int, int> x;\n",
     )
     assert found_by(check("includes"), root) == ["core/punctura/b.hpp:2: include <string>"]
