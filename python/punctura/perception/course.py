@@ -6,65 +6,57 @@ Nothing here has a randomness of its own that is not the seed's, so the answers 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from pydantic import BaseModel, NonNegativeInt
+from scipy.special import entr
 
 from punctura.perception.protocol import Protocol, Stimulus
-from punctura.perception.psychometric import QUEST, Array, Grid
+from punctura.perception.psychometric import QUEST, Grid
 from punctura.perception.stimulus import Felt
 
 Kind = Literal["practice", "trial", "catch"]
+Method = Generator[int, int, None]  # gives the index of the next level, and gets what `counted` says of the answer
 PAIRS = 2
 
 
-class Constant:
+def constant(protocol: Protocol, random: np.random.Generator) -> Method:
     """The method of constant stimuli: every level as often in each block, in random order."""
-
-    def __init__(self, protocol: Protocol, random: np.random.Generator) -> None:
-        trials, levels = protocol.file.trials, len(protocol.levels)
-        a_block = np.repeat(np.arange(levels), (trials.per_level or 0) // trials.blocks)
-        self._order = [int(level) for _ in range(trials.blocks) for level in random.permutation(a_block)]
-        self.level = self._order.pop(0)
-
-    def add(self, counted: int) -> None:
-        self.level = self._order.pop(0) if self._order else -1
+    trials, levels = protocol.file.trials, len(protocol.levels)
+    a_block = np.repeat(np.arange(levels), (trials.per_level or 0) // trials.blocks)
+    for level in [int(level) for _ in range(trials.blocks) for level in random.permutation(a_block)]:  # noqa: UP028
+        yield level  # and takes the answer, as a list would not
+    yield -1  # after the last trial
 
 
-class Staircase:
+def staircase(protocol: Protocol, _: np.random.Generator) -> Method:
     """The weighted up-down method: C. Kaernbach, Perception & Psychophysics 49 (1991) 227.
 
     `down` steps towards the harder levels after a right answer (or "yes"), `up` steps back after another one. It begins
     at the easiest level.
     """
-
-    def __init__(self, protocol: Protocol) -> None:
-        self._steps = -protocol.file.trials.up, protocol.file.trials.down
-        self._last, self.level = len(protocol.levels) - 1, protocol.easiest
-        self._harder = -1 if self.level > self._last / 2 else 1
-
-    def add(self, counted: int) -> None:
-        self.level = min(max(self.level + self._harder * self._steps[counted], 0), self._last)
+    trials, last, level = protocol.file.trials, len(protocol.levels) - 1, protocol.easiest
+    harder = -1 if level > last / 2 else 1
+    while True:
+        right = yield level
+        level = min(max(level + harder * (trials.down if right else -trials.up), 0), last)
 
 
-class Adjustment:
+def adjustment(protocol: Protocol, random: np.random.Generator) -> Method:
     """The comparison begins at either end of the levels as often, and the answers move it until it is equal."""
-
-    def __init__(self, protocol: Protocol, random: np.random.Generator) -> None:
-        self._last, self._up = len(protocol.levels) - 1, 1 if protocol.rises else -1
-        self._starts = [int(end) * self._last for end in random.permutation(protocol.file.trials.total or 0) % 2]
-        self.level = self._starts.pop()
-
-    def add(self, counted: int) -> None:
-        self.level = min(max(self.level + self._up * counted, 0), self._last)
-        if not counted and self._starts:
-            self.level = self._starts.pop()
+    last, up = len(protocol.levels) - 1, 1 if protocol.rises else -1
+    for end in random.permutation(protocol.file.trials.total or 0)[::-1] % 2:
+        level, move = int(end) * last, 1
+        while move:
+            move = yield level
+            level = min(max(level + up * move, 0), last)
+    yield -1  # after the last setting
 
 
-class Quest:
+def quest(protocol: Protocol, _: np.random.Generator) -> Method:
     """QUEST+: the level whose answer is expected to leave the least entropy (A. B. Watson, Journal of Vision 17(3):10,
     2017), here that of the wanted parameters alone (N. Prins, Journal of Vision 13(7):3, 2013).
 
@@ -72,41 +64,22 @@ class Quest:
     summed over, else it would cost trials. A bias towards one interval is left out: both intervals have the comparison
     as often.
     """
-
-    def __init__(self, protocol: Protocol) -> None:
-        shape = protocol.shape
-        shape = replace(shape, bends=False, rest="" if shape.rest == "bias" else shape.rest)
-        grid = Grid(shape, protocol.levels, QUEST)
-        self._p, self._weight = grid.probability(protocol.levels), grid.prior
-        self._wanted = QUEST.place * (QUEST.width if protocol.compares else 1)
-        self.level = self._best()
-
-    def _best(self) -> int:
-        yes = (self._p * self._weight).reshape(len(self._p), self._wanted, -1).sum(axis=2)
-        no = self._weight.reshape(self._wanted, -1).sum(axis=1) - yes
+    shape = protocol.shape
+    shape = replace(shape, bends=False, rest="" if shape.rest == "bias" else shape.rest)
+    grid = Grid(shape, protocol.levels, QUEST)
+    p, weight = grid.probability(protocol.levels), grid.prior
+    wanted = QUEST.place * (QUEST.width if protocol.compares else 1)
+    while True:
+        yes = (p * weight).reshape(len(p), wanted, -1).sum(axis=2)
+        no = weight.reshape(wanted, -1).sum(axis=1) - yes
         # The expected entropy after the answer is that of answer and parameters together less that of the answer.
-        gain = sum(_plogp(part).sum(axis=1) - _plogp(part.sum(axis=1)) for part in (yes, no))
-        return int(np.argmax(gain))
-
-    def add(self, counted: int) -> None:
-        p = self._p[self.level]
-        weight = self._weight * (p if counted else 1 - p)
-        self._weight = weight / weight.sum()
-        self.level = self._best()
+        level = int(np.argmin(sum(entr(part).sum(axis=1) - entr(part.sum(axis=1)) for part in (yes, no))))
+        counted = yield level
+        weight = weight * (p[level] if counted else 1 - p[level])
+        weight = weight / weight.sum()
 
 
-def _plogp(p: Array) -> Array:
-    found: Array = p * np.log(np.maximum(p, 1e-300))
-    return found
-
-
-def _method(protocol: Protocol, random: np.random.Generator) -> Constant | Staircase | Adjustment | Quest:
-    """It has the index of the next level, and takes the answer: whether it was right, "yes" or "the comparison"."""
-    if protocol.file.method == "constant":
-        return Constant(protocol, random)
-    if protocol.adjusts:
-        return Adjustment(protocol, random)
-    return Staircase(protocol) if protocol.file.method == "staircase" else Quest(protocol)
+METHODS = {"constant": constant, "staircase": staircase, "quest": quest, "adjustment": adjustment}
 
 
 @dataclass(frozen=True)
@@ -135,7 +108,8 @@ class Course:
         given = protocol.file.trials
         self._group, self._turn = divmod(participant, protocol.intervals)
         random = np.random.default_rng([protocol.file.seed, self._group])
-        self._method = _method(protocol, random)
+        self._method = METHODS[protocol.file.method](protocol, random)
+        self._level = next(self._method)
         kinds: list[Kind] = ["trial"] * (protocol.file.scored // given.blocks)
         kinds += ["catch"] * given.catch
         self._plan: list[tuple[int, Kind]] = [(0, "practice")] * given.practice
@@ -153,7 +127,7 @@ class Course:
             return None
         block, kind = self._plan[self.at]
         protocol = self.protocol
-        level = self._method.level if kind == "trial" else protocol.easiest if kind == "practice" else -1
+        level = self._level if kind == "trial" else protocol.easiest if kind == "practice" else -1
         shown = protocol.catch if kind == "catch" else protocol.stimuli[level]
         assert shown is not None
         position = 1 if protocol.adjusts else (self._position(kind, level) + self._turn) % protocol.intervals
@@ -165,7 +139,7 @@ class Course:
         """Takes the answer to `next`."""
         hit = counted(self.protocol, trial.position, answer)
         if trial.kind == "trial":
-            self._method.add(hit)
+            self._level = self._method.send(hit)
         self._shown[trial.kind, trial.level] += 1
         self._number += 1
         self.at += not (self.protocol.adjusts and hit)

@@ -2,7 +2,8 @@
 
 import math
 import os
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from functools import cache, partial
 from pathlib import Path
@@ -10,7 +11,8 @@ from pathlib import Path
 from punctura import Scene
 from punctura._core import ForceLimits
 from punctura.errors import MISSING, ConfigurationError, Problem
-from punctura.files.toml import read_tables
+from punctura.files.tables import path_of
+from punctura.files.toml import Tables, read_tables
 from punctura.perception.protocol import ANSWERS, KEYS, ONE_INTERVAL, SCHEMA, Protocol, ProtocolFile, Stimulus
 from punctura.perception.stimulus import QUANTITIES, cut_by_limits, simulated, solved
 from punctura.perception.words import problems_of
@@ -35,15 +37,33 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
         raise ConfigurationError([Problem("", MISSING, reason)], str(path))
     tables = read_tables(path, "protocol")
     file, problems = SCHEMA.checked(tables)
+    if file is None:
+        file, _ = SCHEMA.checked(_sound(tables, problems))
     scene, found = scene_of(tables, path)
     problems += found
-    if file is not None:
+    if file:
         wrong = [*_trials(file), *_stimulus(file), *_reference(file), *(_paths(file, scene) if scene else ())]
-        problems += [*_answers(file), *problems_of(file.words, KEYS)]
-        problems += [Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad]
-    if file is None or scene is None or problems:
+        found = [*_answers(file), *problems_of(file.words, KEYS)]
+        found += [Problem(key, _plain(value), reason) for bad, key, value, reason in wrong if bad]
+        known = {problem.path for problem in problems}
+        problems += [problem for problem in found if problem.path not in known]
+    protocol = None
+    if file and scene and not any(re.match("stimulus|values|scene", problem.path) for problem in problems):
+        protocol = _shown(path, file, scene, problems)
+    if protocol is None or problems:
         raise ConfigurationError(problems, str(path))
-    return _shown(path, file, scene)
+    return protocol
+
+
+def _sound(tables: Tables, problems: Sequence[Problem]) -> Tables:
+    """The tables without the keys that are wrong, and with any text that is needed: the other keys are checked, too."""
+    wrong, sound = {problem.path for problem in problems}, Tables(title="-", question="-", scene="-")
+    for key, value in tables.items():
+        if isinstance(value, dict):
+            sound[key] = {inner: one for inner, one in value.items() if path_of((key, inner)) not in wrong}
+        elif key not in wrong:
+            sound[key] = value
+    return sound
 
 
 def check_device(protocol: Protocol, limits: ForceLimits) -> None:
@@ -119,7 +139,7 @@ def _trials(file: ProtocolFile) -> Iterator[Row]:
 def _stimulus(file: ProtocolFile) -> Iterator[Row]:
     key, levels = "stimulus.levels", file.levels
     count = LEAST_LEVELS <= len(levels) <= MOST_LEVELS
-    reason = f"must be {LEAST_LEVELS} to {MOST_LEVELS} numbers, each larger than the one before"
+    reason = f"must be {LEAST_LEVELS} to {MOST_LEVELS} finite numbers, each larger than the one before"
     yield not (count and all(map(math.isfinite, levels)) and sorted(set(levels)) == levels), key, levels, reason
     reason = "must be more than 0 for magnitude, whose result is an exponent"
     yield file.task == "magnitude" and min(levels, default=1) <= 0, key, levels, reason
@@ -182,9 +202,9 @@ def _paths(file: ProtocolFile, scene: Scene) -> Iterator[Row]:
     yield given.variable in file.values, f"values.{given.variable}", given.variable, reason
 
 
-def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
-    """The protocol with its stimuli. Raises ConfigurationError with those that no scene can give."""
-    given, levels, problems = file.stimulus, file.levels, list[Problem]()
+def _shown(path: Path, file: ProtocolFile, scene: Scene, problems: list[Problem]) -> Protocol | None:
+    """The protocol with its stimuli; None, and more problems, if no scene can give them."""
+    given, levels, before = file.stimulus, file.levels, len(problems)
     names = [placed.name for placed in scene.membranes]
     membrane = 0 if given.membrane is None else names.index(given.membrane)
 
@@ -207,8 +227,8 @@ def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
     if fixed:
         for end in ends:
             made("stimulus.between", end, partial(fixed.with_values, {str(given.solve): end}))
-    if fixed is None or problems:
-        raise ConfigurationError(problems, str(path))
+    if fixed is None or len(problems) > before:
+        return None
 
     @cache
     def stimulus(key: str, level: float, solver: str | None) -> list[Stimulus]:
@@ -229,8 +249,8 @@ def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
         references = each(given.reference_solver)
     if file.trials.catch_level is not None:
         catch = next(iter(stimulus("trials.catch_level", float(file.trials.catch_level), given.solver)), None)
-    if problems:
-        raise ConfigurationError(problems, str(path))
+    if len(problems) > before:
+        return None
     unit = next((one.unit for one in scene.fields() if one.path == given.variable), "N")
     protocol = Protocol(path, file, tuple(stimuli), tuple(references), catch, membrane, unit)
     if not any(protocol.difference(i) > 0 for i in range(len(levels))):
@@ -241,6 +261,4 @@ def _shown(path: Path, file: ProtocolFile, scene: Scene) -> Protocol:
         if most > least:
             reason = f"must lack what is asked for: its {given.judged} is {most:.3g}, that of a level {least:.3g}"
             problems.append(Problem("trials.catch_level", catch.level, reason))
-    if problems:
-        raise ConfigurationError(problems, str(path))
     return protocol

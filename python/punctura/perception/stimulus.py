@@ -151,11 +151,14 @@ def solved(scene: Scene, quantity: str, wanted: float, path: str, between: tuple
     if ends[0] * ends[1] > 0:
         least, most = sorted(end + wanted for end in ends)
         raise ValueError(
-            f"no scene gives {wanted:g} N: {path} from {low:g} to {high:g} gives {least:.3g} N to {most:.3g} N"
+            f"no scene gives {wanted:g} N: {path} from {low:g} to {high:g} gives {least:.3g} N to {most:.3g} N; choose "
+            "a level that lies there, or other numbers for between"
         )
     found = float(brentq(excess, low, high, xtol=1e-3 * (high - low)))
     if abs(excess(found)) > MOST_MISS * wanted:  # the felt force jumps with the number, such as where a pop ends
-        raise ValueError(f"no scene gives {wanted:g} N: near {path} = {found:.4g} the felt force jumps over it")
+        raise ValueError(
+            f"no scene gives {wanted:g} N: near {path} = {found:.4g} the felt force jumps over it; leave it out"
+        )
     return scene.with_values({path: found})
 
 

@@ -10,7 +10,7 @@ import pytest
 from protocols import ADJUST, COMPARES, RIGHT, YES, line, written
 from punctura.perception import Observer, Protocol, Simulation, load_protocol
 from punctura.perception.analysis import person
-from punctura.perception.course import Course, Quest, Staircase, Trial
+from punctura.perception.course import Course, Trial, quest, staircase
 from punctura.perception.psychometric import QUEST, Grid
 from punctura.perception.report import words
 
@@ -49,11 +49,12 @@ def test_a_staircase_stays_where_three_of_four_answers_are_right(load: Callable[
     """Kaernbach: up 3, down 1 converge to 75 %, where a step down is as probable as three up."""
     random = np.random.default_rng(1)
     chances = np.linspace(0.55, 0.99, 8)  # of a right answer at each level
-    method, seen = Staircase(load(RIGHT)), []
-    assert method.level == 7
+    method, seen = staircase(load(RIGHT), random), []
+    level = next(method)
+    assert level == 7
     for _ in range(4000):
-        seen.append(bool(random.random() < chances[method.level]))
-        method.add(seen[-1])
+        seen.append(bool(random.random() < chances[level]))
+        level = method.send(seen[-1])
     assert np.mean(seen[100:]) == pytest.approx(0.75, abs=0.02)
 
 
@@ -63,8 +64,10 @@ def test_a_staircase_stays_where_three_of_four_answers_are_right(load: Callable[
 def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str], Protocol], text: str) -> None:
     """Against a direct sum over both answers, after some of them: the entropy of the place, whatever the rest is."""
     protocol = load(text)
-    method, grid = Quest(protocol), Grid(replace(protocol.shape, bends=False), protocol.levels, QUEST)
+    grid = Grid(replace(protocol.shape, bends=False), protocol.levels, QUEST)
     p, weight = grid.probability(protocol.levels), grid.prior
+    method = quest(protocol, np.random.default_rng())
+    level = next(method)
     places = np.unique(grid.place)
     for counted in (True, True, False, True, False):
         entropies = np.zeros(len(p))
@@ -73,11 +76,10 @@ def test_quest_takes_the_level_of_the_least_expected_entropy(load: Callable[[str
                 mass = float(chance @ weight)
                 after = np.array([(chance * weight)[grid.place == place].sum() for place in places]) / mass
                 entropies[i] -= mass * float(after @ np.log(np.maximum(after, 1e-300)))
-        level = method.level
         assert entropies[level] == pytest.approx(min(entropies), abs=1e-9)
-        method.add(counted)
         weight = weight * (p[level] if counted else 1 - p[level])
         weight /= weight.sum()
+        level = method.send(counted)
 
 
 def test_an_adjustment_ends_where_both_intervals_seem_equal(load: Callable[[str], Protocol]) -> None:

@@ -30,6 +30,9 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
     assert "is the key of first, too" in found["answers.second"]
     assert found["trials.per_level"].startswith("12 trials are too few for the fit")
     assert "did you mean membrane[0].precompression?" in found["stimulus.variable"]
+    text = SOLVED.replace("0.35]", "2.5]").replace("[stimulus]", 'seed = "x"\n[stimulus]').replace("= 20", "= 2")
+    found = problems(tmp_path, text.replace("title", "titel"))  # also beside what the schema refuses
+    assert found.keys() == {"seed", "title", "titel", "trials.per_level", "stimulus.levels[2]"}
 
 
 @pytest.mark.parametrize(
