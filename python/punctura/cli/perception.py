@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import re
 import sys
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from punctura.cli._notice import notice
+from punctura.cli._options import LimitsFile, NoBrowser, PlacementFile, Port
 from punctura.cli._out import check_folder
 from punctura.cli._streams import leave, never_wait_for_stderr
+from punctura.cli._trace import pairs
 from punctura.process.signals import Ended
 from punctura.progress import progress_bar
 
@@ -60,16 +62,13 @@ def check(protocol: File, as_json: Json = False) -> None:
     trials = len(Course(loaded, 0))
     levels = [{"level": one.level, **dict(one.felt)} for one in loaded.stimuli]
     if as_json:
-        typer.echo(
-            json.dumps({"protocol": loaded.name, "unit": loaded.unit, "trials": trials, "levels": levels}, indent=2)
-        )
+        found = {"protocol": loaded.name, "unit": loaded.unit, "trials": trials, "levels": levels}
+        typer.echo(json.dumps(found, indent=2))
         return
     typer.echo(f"{loaded.file.title}: {trials} trials a person, practice and catch trials included")
-    for one in loaded.stimuli:
-        typer.echo(
-            f"  {one.level:g} {loaded.unit}: drop {one.felt.drop:.3f} N, peak {one.felt.peak:.3f} N, "
-            f"roughness {one.felt.roughness * 1e3:.1f} mN"
-        )
+    for level, felt in ((one.level, one.felt) for one in loaded.stimuli):
+        words = f"drop {felt.drop:.3f} N, peak {felt.peak:.3f} N, roughness {felt.roughness * 1e3:.1f} mN"
+        typer.echo(f"  {level:g} {loaded.unit}: {words}")
 
 
 @command.command()
@@ -78,14 +77,10 @@ def run(
     participant: Annotated[str, typer.Option(help="Pseudonym, such as P01; no name.")],
     out: Out = None,
     device: Annotated[str, typer.Option(help="As for punctura run.", metavar="NAME")] = "",
-    limits: Annotated[
-        Path | None, typer.Option(help="TOML file with force and input limits (docs/safety.md).", metavar="FILE")
-    ] = None,
-    placement: Annotated[
-        Path | None, typer.Option(help="TOML file with the device's pose, written by punctura place.", metavar="FILE")
-    ] = None,
-    port: Annotated[int, typer.Option(help="Local TCP port of the page; 0 picks a free one.", min=0, max=65535)] = 0,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the page's address alone.")] = False,
+    limits: LimitsFile = None,
+    placement: PlacementFile = None,
+    port: Port = 0,
+    no_browser: NoBrowser = False,
 ) -> None:
     """Runs a participant's session in the studio's page, or the rest of it: each answered trial is on disk at once."""
     from punctura._core import DeviceError, Placement
@@ -209,18 +204,11 @@ def _observer(text: str) -> Observer:
     """Raises BadParameter."""
     from punctura.perception import Observer
 
-    known = [field.name for field in fields(Observer)]
-    found: dict[str, float] = {}
-    for part in filter(None, text.split(",")):
-        key, _, value = (word.strip() for word in part.partition("="))
-        try:
-            found[key] = float(value)
-        except ValueError:
-            raise typer.BadParameter(f"{part} is not KEY=NUMBER, such as weber=0.1", param_hint="--observer") from None
-        if key not in known:
-            raise typer.BadParameter(f"{key} is none of {', '.join(known)}", param_hint="--observer")
+    given, known = pairs(list(filter(None, text.split(","))), "--observer", "weber=0.1"), Observer.__dataclass_fields__
     try:
-        return Observer(**found)
+        if unknown := given.keys() - known:
+            raise ValueError(f"{min(unknown)} is none of {', '.join(known)}")
+        return Observer(**{key: float(value) for key, value in given.items()})
     except ValueError as bad:
         raise typer.BadParameter(str(bad), param_hint="--observer") from None
 

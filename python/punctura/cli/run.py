@@ -9,6 +9,7 @@ import typer
 
 from punctura._core import DeviceError
 from punctura.cli._headless import USUAL_SCENE, Wishes, run_headless
+from punctura.cli._options import LimitsFile, NoBrowser, PlacementFile, Port
 from punctura.cli._out import check_place
 from punctura.cli._rivals import rivals_of
 from punctura.cli._streams import leave, never_wait_for_stderr
@@ -37,13 +38,8 @@ def command(
         ),
     ] = "",
     headless: Annotated[bool, typer.Option("--headless", help="Run in the terminal, without the studio.")] = False,
-    port: Annotated[
-        int,
-        typer.Option("--port", help="Local TCP port of the page; 0 picks a free one.", min=0, max=65535),
-    ] = 0,
-    no_browser: Annotated[
-        bool, typer.Option("--no-browser", help="Print the page's address; do not open a browser.")
-    ] = False,
+    port: Port = 0,
+    no_browser: NoBrowser = False,
     device: Annotated[
         str,
         typer.Option(
@@ -70,26 +66,8 @@ def command(
     duration: Annotated[
         float | None, typer.Option("--duration", help="Seconds to run. Default: until Ctrl-C.", min=0.0)
     ] = None,
-    placement: Annotated[
-        Path | None,
-        typer.Option(
-            "--placement",
-            help="TOML file with the device's pose, written by punctura place.",
-            metavar="FILE.toml",
-            exists=True,
-            dir_okay=False,
-        ),
-    ] = None,
-    limits: Annotated[
-        Path | None,
-        typer.Option(
-            "--limits",
-            help="TOML file with force and input limits (docs/safety.md).",
-            metavar="FILE.toml",
-            exists=True,
-            dir_okay=False,
-        ),
-    ] = None,
+    placement: PlacementFile = None,
+    limits: LimitsFile = None,
     max_force: Annotated[
         float | None, typer.Option("--max-force-N", help="Largest force, N. Overrides --limits.")
     ] = None,

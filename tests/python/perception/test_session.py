@@ -179,7 +179,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
     status, _, err = punctura("perception", "analyse", file, "--out", tmp_path / "none")
     assert status == 2 and "there is no folder" in err
-    for wrong, words in (("weber=a", "KEY=NUMBER"), ("webber=1", "none of weber, "), ("lapse=2", "from 0 to 1")):
+    for wrong, words in (("weber", "as weber=0.1"), ("webber=1", "none of weber, "), ("lapse=2", "from 0 to 1")):
         status, _, err = punctura("perception", "power", file, "--observer", wrong)
         assert status == 2 and words in err
     changed = written(tmp_path, YES.replace("seed = 4", "seed = 5"))
