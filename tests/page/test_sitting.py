@@ -2,6 +2,7 @@
 
 from person import opened
 from playwright.sync_api import expect
+from senses import STUBS
 from sitting import answered, on_disk, sentence, sitting, stroke
 
 
@@ -36,3 +37,14 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
             page.keyboard.press("n")
             sentence(page, "That was the last trial.")
     assert [line.answer for line in on_disk(tmp_path)][18:] == ["yes", "no"]
+
+
+def test_nothing_but_the_force_tells_of_a_pop_though_the_browser_remembers_bench_and_sound(browser, tmp_path):
+    answered(tmp_path, 18)
+    with sitting(tmp_path) as studio, opened(browser, studio.url, sound="on", script=STUBS) as page:
+        sentence(page, "18 of 20 trials are done.")
+        page.keyboard.press("Enter")
+        sentence(page, "Trial 19 of 20: push")
+        stroke(page)
+        sentence(page, "Did it pop?")
+        assert page.evaluate("[heard, rumbled]") == [["friction"], []]  # a noise whose volume stays 0

@@ -20,7 +20,7 @@ export const askSound: Panel = (root, app) => {
   root.after(box);
   let popped = false;
   const show = (): void => {
-    box.hidden = !popped || sound.wanted.value !== null;
+    box.hidden = !popped || sound.wanted.value !== null || app.sitting.value !== null;
   };
   app.live.events.watch((events) => {
     popped ||= events.some(({ what }) => what === "pop");

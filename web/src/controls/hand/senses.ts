@@ -43,12 +43,15 @@ export function senseRows(app: App, hand: Hand): HTMLElement {
       sticks.lead(found, seconds);
       thumb.push("trigger", FULL_TRIGGER * (found.buttons[RIGHT_TRIGGER]?.value ?? 0), now);
     }
+    const quiet = app.sitting.value !== null; // in a participant's session nothing but the force tells of a pop
     for (const pop of felt.pops(source)) {
+      if (quiet) continue;
       sound.click(pop.drop);
       if (found) rumble(found, pop.drop);
       buzz(pop.drop);
     }
-    if (sound.on) sound.setFriction(source.cursor.value === null || !source.live ? felt.power(source) : 0);
+    const plays = !quiet && (source.cursor.value === null || !source.live);
+    if (sound.on) sound.setFriction(plays ? felt.power(source) : 0);
     const words = found ? found.id.replace(/\s*\(.*$/, "") : "none; press a button on it";
     if (words === name) return;
     name = words;
