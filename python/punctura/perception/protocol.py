@@ -3,6 +3,7 @@
 import hashlib
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
@@ -93,13 +94,8 @@ class ProtocolFile(Table):
 
 SCHEMA = Schema(
     ProtocolFile,
-    {
-        "stimulus": StimulusTable,
-        "trials": TrialsTable,
-        "words": WordsTable,
-        "answers": ProtocolFile,
-        "values": ProtocolFile,
-    },
+    {"stimulus": StimulusTable, "trials": TrialsTable, "words": WordsTable}
+    | dict.fromkeys(("answers", "values"), ProtocolFile),
 )
 
 
@@ -129,7 +125,7 @@ class Protocol:
         """Name of the file without its suffix."""
         return self.path.stem
 
-    @property
+    @cached_property
     def levels(self) -> tuple[float, ...]:
         """From the lowest to the highest."""
         return tuple(one.level for one in self.stimuli)
@@ -140,7 +136,7 @@ class Protocol:
         given = self.file.scene
         return given if given in scene_names() else str(self.path.parent / given)
 
-    @property
+    @cached_property
     def intervals(self) -> int:
         """The number of intervals of a trial."""
         return {"three_intervals": 3}.get(self.file.task, 1 if self.file.task in ONE_INTERVAL else 2)
@@ -160,7 +156,7 @@ class Protocol:
         """The level of the other intervals; None if they have the level of the trial, or there are none."""
         return None if self.file.stimulus.reference is None else float(self.file.stimulus.reference)
 
-    @property
+    @cached_property
     def answers(self) -> dict[str, str]:
         """The key of each answer, in the order of the task."""
         return {name: self.file.answers.get(name, KEYS.get(name, name)) for name in ANSWERS[self.file.task]}
@@ -179,7 +175,7 @@ class Protocol:
         """The attribute of Felt in which the stimuli differ: the variable itself, or what is judged."""
         return QUANTITIES.get(self.file.stimulus.variable, self.file.stimulus.judged)
 
-    @property
+    @cached_property
     def compares(self) -> bool:
         """Whether the answer that counts is "the comparison", not a right one: levels on both sides of a reference."""
         reference = self.reference
@@ -193,12 +189,12 @@ class Protocol:
         """What an observer judges, as a hand without tremor feels it."""
         return float(getattr(one.felt, self.file.stimulus.judged))
 
-    @property
+    @cached_property
     def rises(self) -> bool:
         """Whether the judged quantity grows with the level."""
         return self.judged(self.stimuli[-1]) >= self.judged(self.stimuli[0])
 
-    @property
+    @cached_property
     def shape(self) -> Shape:
         """Of the psychometric function."""
         if self.file.task == "yes_no" or self.compares:
@@ -210,7 +206,7 @@ class Protocol:
         rest: Literal["", "bias"] = "bias" if self.intervals == 2 else ""
         return Shape(self.intervals, one_sided=True, rises=grows, reference=none, below=below, rest=rest)
 
-    @property
+    @cached_property
     def easiest(self) -> int:
         """The index of the level that is told best."""
         if self.intervals == 1:

@@ -33,6 +33,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_PANELS = 12
+CAPTIONS = {
+    "": "Circles: the answers at a level, larger the more there are. Line and band: the function and its "
+    f"{LEVEL:.0%} interval. Bar: that of the threshold.",
+    "rates": "Circles: the mean at a level. Line: least squares; the interval of its slope is in the table.",
+    "adjusts": "Circles: the settings, one after the other. Line: their mean; its interval is in the table.",
+}
 # Column, type, unit, meaning. "comparison" is the interval that has the level of the trial.
 DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("participant", pa.string(), "", "pseudonym"),
@@ -143,7 +149,9 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         what = "yes (false alarms)" if file.task == "yes_no" else "right"
         parts = (f"{one.participant} {one.catch_counted} of {one.catch_trials}" for one in caught)
         lines += [f"Catch trials, {what}: {', '.join(parts)}.", ""]
-    return "\n".join(lines + (["![The psychometric functions](functions.svg)", ""] if drawn else []))
+    kind = "rates" if protocol.rates else "adjusts" if protocol.adjusts else ""
+    lines += ["![The psychometric functions](functions.svg)", "", CAPTIONS[kind], ""] if drawn else []
+    return "\n".join(lines)
 
 
 def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[Line]]) -> bytes | None:
@@ -217,7 +225,7 @@ def _counted(protocol: Protocol) -> str:
     """What the function gives: the share of these answers, or the mean of these points."""
     if protocol.rates or protocol.adjusts:
         return "points" if protocol.rates else "setting"
-    return "yes" if protocol.file.task == "yes_no" else "comparison" if protocol.compares else "right answers"
+    return "yes" if protocol.file.task == "yes_no" else '"the comparison"' if protocol.compares else "right answers"
 
 
 def _row(protocol: Protocol, header: Header, line: Line) -> dict[str, object]:

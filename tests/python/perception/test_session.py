@@ -172,7 +172,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
         rows = list(csv.DictReader(opened))
     assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
     report, picture = ((folder / name).read_text() for name in ("report.md", "functions.svg"))
-    assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report
+    assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report and "Bar: that" in report
     assert "<!-- thickness of the thin membrane, mm -->" in picture
     status, out, _ = punctura("perception", "delete", file, "O01")
     assert status == 0 and out.count("deleted") == 7
