@@ -85,7 +85,9 @@ class Rule:
         gain = old.worth(effective).bic - new.worth(effective).bic
         late, before = set(new.model.late), set(old.model.late)
         if late - before and before - late:  # other errors of the rig: neither is the larger model
-            return gain > 0 and new.fit.weighted_rmse < NOISY * self._noise and self._predicts(new, old)
+            slow = len(new.fit.u) > len(old.fit.u) and self._may_be_slow_noise(new, old)
+            little = new.fit.weighted_rmse < NOISY * self._noise
+            return gain > 0 and little and not slow and self._predicts(new, old)
         larger, smaller = (new, old) if len(new.fit.u) > len(old.fit.u) else (old, new)
         needed = EVIDENCE
         if set(larger.model.late) - set(smaller.model.late):

@@ -19,6 +19,7 @@ from punctura.trace.turns import noise_of
 Array = NDArray[Any]
 
 FEW = 0.05  # of the samples: so many spikes may be left out
+PULL, FINE = 3.0, 0.03  # times the noise, and of the range of the force: the air is so far above the floor
 AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
 NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
 ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
@@ -147,6 +148,9 @@ def without_floor(trace: Trace, segments: Segments) -> tuple[Trace, list[Finding
     force, zero = trace.force, baseline(trace.force)
     if zero - force.min() > 0.1 * float(np.max(np.abs(force - zero))):
         return trace, []
+    air = force[:0] if segments.exit is None else force[segments.exit :]
+    if len(air) and float(np.median(air)) - force.min() > max(PULL * noise_of(force), FINE * float(np.ptp(force))):
+        return trace, []  # in air the sensor reads more, so it measures a pull
     surface = trace.depth.min() if segments.contact is None else trace.depth[segments.contact]
     floor, left_out = (force == force.min()) & (trace.depth > surface), np.zeros(len(force), bool)
     for stroke in segments.strokes:

@@ -206,3 +206,12 @@ def test_insertions_after_each_other_without_withdrawals_are_not_taken_for_one_p
         paused = examine(Trace(depth, force, time + 10 * (np.arange(len(depth)) // 600)))
         kinds = {one.kind for one in paused.findings}
         assert "gap" in kinds and "stacked" not in kinds
+
+
+@pytest.mark.parametrize("pull", [0.05, 0.0])
+def test_a_pull_that_does_not_change_is_one_where_the_air_behind_it_reads_more(pull):
+    depth = np.concatenate((np.arange(0, 10e-3, 5e-6), np.arange(10e-3, 0, -5e-6)))
+    going = np.arange(len(depth)) < 2000
+    force = np.where(depth < 3e-3, 0.0, np.where(going, 0.85 * np.minimum((depth - 3e-3) / 2e-3, 1.0), -pull))
+    found = {one.kind for one in examine(Trace(depth, force, np.arange(len(depth)) / 200)).findings}
+    assert ("no_pull" in found) == (pull == 0)
