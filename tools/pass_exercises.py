@@ -28,12 +28,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "page"
 from person import PATIENCE, new_context
 
 LAPTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
-STEP_MS, LOOK_MS = 60, 400  # after a step: on the way, and near the place
+STEP_MS, LOOK_MS = 60, 250  # after a step: on the way, and near the place
 FALL = 0.12  # N, of the number of the force when something gave way
 NUMBER = re.compile(r"\d[\d.]*")
 ASIDE = {"rolling-vein": 4.0}  # mm towards you, before the needle goes in: the list says so
 VIEW = ".view-main > canvas"
 NEEDLE = f"document.querySelector('{VIEW}').dataset.needle.split(' ').map(Number)"  # its ends, as shares of the view
+
+
+def number(words: Locator) -> float:
+    return float(words.inner_text().replace("\N{MINUS SIGN}", "-"))
 
 
 class Keys:
@@ -43,9 +47,9 @@ class Keys:
         self.page = page
         page.locator(VIEW).focus()
 
-    def move(self, way: int) -> None:
-        """One step in, or out."""
-        self.page.keyboard.press("ArrowDown" if way > 0 else "ArrowUp")
+    def move(self, way: int, far: bool = False) -> None:
+        """One step in, or out. far: larger, because nothing is near."""
+        self.page.keyboard.press(("Shift+" if far else "") + ("ArrowDown" if way > 0 else "ArrowUp"))
 
     def aside(self, way: float) -> None:
         for _ in range(round(way / 0.25)):
@@ -62,12 +66,12 @@ class Keys:
 class Mouse(Keys):
     """Drags along the needle, and anew where the page ends. While it holds the plunger's button, its wheel moves."""
 
-    pixels = 1.5  # of a step
+    pixels = 2.0  # of a step
     at: tuple[float, float] | None = None  # where the pointer is pressed
     way = (0.0, 1.0)
     pushing = False
 
-    def move(self, way: int) -> None:
+    def move(self, way: int, far: bool = False) -> None:
         if self.pushing:
             return self.page.mouse.wheel(0, 100 * way)
         box = self.page.locator(VIEW).bounding_box()
@@ -80,7 +84,8 @@ class Mouse(Keys):
             share = 0.3 if way > 0 else 0.6
             self.at = box["x"] + share * wide, box["y"] + (share + 0.05) * high
             self.press(*self.at)
-        self.at = self.at[0] + self.pixels * way * self.way[0], self.at[1] + self.pixels * way * self.way[1]
+        step = self.pixels * way * (3 if far else 1)
+        self.at = self.at[0] + step * self.way[0], self.at[1] + step * self.way[1]
         self.go(*self.at)
         if not (20 < self.at[0] - box["x"] < wide - 20 and 60 < self.at[1] - box["y"] < 0.7 * high):
             self.release()
@@ -94,9 +99,9 @@ class Mouse(Keys):
         box = self.page.locator(".view-main").bounding_box()
         assert box
         place = self.page.get_by_role("row", name="Tip").locator("td").last
-        x, y, end = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, float(place.inner_text()) + way
+        x, y, end = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, number(place) + way
         self.press(x, y)
-        while (left := end - float(place.inner_text())) > 0.1:
+        while (left := end - number(place)) > 0.1:
             y += min(2.0, left)
             self.go(x, y)
             self.page.wait_for_timeout(2 * STEP_MS)
@@ -184,9 +189,9 @@ def attempt(page: Page, hand: Keys, slower: int) -> str:
         if words.startswith("You reached") or holds:
             page.wait_for_timeout(STEP_MS)
             continue
-        hand.move(-1 if "raw back" in words else 1)
+        hand.move(-1 if "raw back" in words else 1, far=words == asked and most == 0)
         near = "hold it" in words or ("second pop" in asked and falls == 1)
-        page.wait_for_timeout(slower * (LOOK_MS if near else STEP_MS))
+        page.wait_for_timeout(STEP_MS / 2 if pushing else slower * (LOOK_MS if near else STEP_MS))
     return "not passed: no result"
 
 

@@ -29,7 +29,7 @@ TOUCHED = 1024  # px: up to this width, fingers are the usual pointer
 STILL_MS = 1500  # until plots and view are drawn
 RESTS = """() => {
   const view = document.querySelector(".view canvas");
-  return !view || view.width > 1.9 * view.clientWidth;
+  return !view || Math.abs(view.width - 2 * view.clientWidth) <= 2;
 }"""  # drawn without a graphics card
 
 # name, scene, action, size, colour scheme
