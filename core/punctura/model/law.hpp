@@ -12,8 +12,8 @@ namespace punctura {
 /// A friction law. Its pieces() are the quadratic pieces of its band, a PiecewiseBand.
 ///
 /// The lower edge is <= the upper edge and <= 0 at every depth: a positive one would pull the needle in. Both edges are
-/// 0 in front of the first break and constant behind the last break. The first break is at the surface (depth 0) or
-/// deeper.
+/// 0 in front of the first break and constant behind the last finite break. The first break is at the surface (depth 0)
+/// or deeper.
 ///
 /// A law with memory may have pieces(cos_beta, memory) alone: Memory{} is an untouched membrane.
 template <typename L>

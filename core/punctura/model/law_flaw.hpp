@@ -17,7 +17,7 @@ struct LawFlaw {
   enum class Kind : std::uint8_t {
     none,
     in_front,  ///< the band is not 0 in front of the first break
-    behind,    ///< an edge is not constant behind the last break
+    behind,    ///< an edge is not constant behind the last finite break
     order,     ///< break `at` is in front of `depth`, or is not a number
     band,      ///< the lower edge is above the upper one at `depth`, or one is not finite
     pulls,     ///< the lower edge is above 0 N at `depth`
@@ -48,10 +48,12 @@ LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
     from = start;
     const auto& piece = pieces.piece(i);
     const double to = i < pieces.last() ? static_cast<double>(pieces.end(i)) : from;
-    const auto width = piece.upper.minus(1, piece.lower);
-    const auto turn =
-        static_cast<double>(piece.origin - width.c1 / (2 * width.c2));  // NaN or infinity if it is straight
-    for (const double depth : {from, to, turn > from && turn < to ? turn : from}) {
+    if (to == infinity && std::isfinite(from) && !(level(piece.lower) && level(piece.upper))) return {Kind::behind};
+    const auto turn = [&](const auto& edge) {  // where it is largest or smallest, m
+      const auto at = static_cast<double>(piece.origin - edge.c1 / (2 * edge.c2));  // no finite one if it is straight
+      return at > from && at < to ? at : from;
+    };
+    for (const double depth : {from, to, turn(piece.upper.minus(1, piece.lower)), turn(piece.lower)}) {
       if (!std::isfinite(depth)) continue;
       const auto [lower, upper] = piece.band(static_cast<Scalar>(depth));
       const LawFlaw found{Kind::band, 0, depth, static_cast<double>(lower), static_cast<double>(upper)};

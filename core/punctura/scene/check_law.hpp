@@ -16,7 +16,7 @@ inline std::string words_for(const LawFlaw& flaw) {
   switch (flaw.kind) {
     case LawFlaw::Kind::none: break;
     case LawFlaw::Kind::in_front: return "its band must be 0 in front of the first break";
-    case LawFlaw::Kind::behind: return "its edges must be constant behind the last break";
+    case LawFlaw::Kind::behind: return "its edges must be constant behind the last finite break";
     case LawFlaw::Kind::order: return "its break " + std::to_string(flaw.at) + " must be at " + depth + " or deeper";
     case LawFlaw::Kind::band:
       return "its band at the depth " + depth + " is from " + lower + " to " + decimal_text(flaw.upper) +

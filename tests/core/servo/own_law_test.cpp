@@ -138,8 +138,10 @@ TEST_CASE("the peak limit acts on the force of a custom law") {
 
 namespace {
 using ThreePieces = PiecewiseBand<double, 3>;
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
 constexpr BandPiece<double> holds{0, {-0.3}, {0.3}};
+constexpr BandPiece<double> hump{0, {-0.1, 2000, -1e6}, {0.1, 2000, -1e6}};  // its lower edge is 0.9 N at 1 mm
 constexpr ThreePieces sound{{0, 1}, {{{}, holds, holds}}};
 ThreePieces with_band(Quadratic<double> lower, Quadratic<double> upper) {
   return {{0, 1}, {{{}, {0, lower, upper}, holds}}};
@@ -167,12 +169,14 @@ const std::vector<ThreePieces> no_laws{
     with_band({no_number}, {no_number}),
     with_band({no_number}, {0.3}),
     with_band({-0.3}, {no_number}),
-    with_band({-std::numeric_limits<double>::infinity()}, {0.3}),
+    with_band({-infinity}, {0.3}),
     with_band({0.3}, {-0.3}),
     with_band({0.2}, {0.3}),
     with_band({-0.3}, {-4.5}),
     with_band({-0.3, 0, 1e5}, {0.3}),  // its lower edge rises above the upper one, deeper than the tip is
     {{0, 1}, {{{}, holds, {0, {-0.3, -1}, {0.3}}}}},  // falls behind the last break
+    {{0, infinity}, {{{}, {0, {-0.1, 1000}, {0.1}}, holds}}},
+    {{0, 2e-3}, {{{}, hump, holds}}},
     {{0, 1}, {{holds, holds, holds}}},
     {{2e-3, 1e-3}, {{{}, holds, holds}}},
     {{-1e-3, 1}, {{{}, holds, holds}}},
@@ -237,7 +241,9 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
   };
   const BandPiece<double> good{0, {-1, 2}, {1, -2}}, level{0, {-1}, {1}};
   CHECK(problem_of({{0, 1e-3}, {{{}, good, level}}}).empty());
-  CHECK(problem_of({{0, std::numeric_limits<double>::infinity()}, {{{}, level, level}}}).empty());
+  CHECK(problem_of({{0, infinity}, {{{}, level, level}}}).empty());
+  CHECK(problem_of({{infinity, infinity}, {{{}, good, level}}}).empty());  // no depth is in the second piece
+
   std::vector<Problem> problems;  // of a law of core that is used as one's own
   CHECK(try_build<double>(paper_scene(1e-3), problems, [](Needle needle, Membrane membrane, auto) {
     return TissueLaw(needle, membrane, Tissue{});
@@ -249,7 +255,9 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
     CHECK(line.find(words) != std::string::npos);
   };
   faulty({{0, 1e-3}, {{level, good, level}}}, "0 in front of the first break");
-  faulty({{0, 1e-3}, {{{}, level, good}}}, "constant behind the last break");
+  faulty({{0, 1e-3}, {{{}, level, good}}}, "constant behind the last finite break");
+  faulty({{0, infinity}, {{{}, {0, {-0.1, 1000}, {0.1}}, level}}}, "constant behind the last finite break");
+  faulty({{0, infinity}, {{{}, {0, {-0.1}, {0.1, 0, 1}}, level}}}, "constant behind the last finite break");
   faulty({{-1e-3, 1e-3}, {{{}, good, level}}}, "break 0 must be at 0 m or deeper");
   faulty({{2e-3, 1e-3}, {{{}, good, level}}}, "break 1 must be at 0.002 m or deeper");
   faulty({{0, nan}, {{{}, good, level}}}, "break 1 must be at 0 m");
@@ -257,6 +265,7 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
   faulty({{0, 1e-3}, {{{}, {0, {-1, 4000}, {1}}, level}}}, "at the depth 0.001 m is from 3 N to 1 N");
   faulty({{0, 2e-3}, {{{}, {0, {-1, 4000, -2e6}, {0}}, level}}}, "at the depth 0.001 m is from 1 N to 0 N");
   faulty({{0, 1e-3}, {{{}, {0, {1}, {2}}, level}}}, "at the depth 0 m is 1 N; it must be 0 N or less");  // pulls in
+  faulty({{0, 2e-3}, {{{}, hump, level}}}, "at the depth 0.001 m is 0.9 N; it must be 0 N or less");
   faulty({{0, 1e-3}, {{{}, good, {0, {nan}, {1}}}}}, "both must be finite");
   faulty({{0, 1e-3}, {{{}, {0, {-1}, {1, nan}}, level}}}, "both must be finite");
 }
