@@ -38,6 +38,11 @@ struct GivenPieces<L> {
 template <Law L>
 using PiecesOf = std::remove_cvref_t<typename detail::GivenPieces<L>::Type>;
 
+/// Whether tests hold the pieces of a law to what Law asks, at each angle and for each memory. A law that is derived
+/// from a proven one has pieces of its own, and is not.
+template <typename L>
+inline constexpr bool is_proven = false;
+
 /// The pieces of an untouched membrane for cos_beta. Without it: for an obliquity of the law's own, or along the
 /// normal.
 template <Law L, typename... Angle>

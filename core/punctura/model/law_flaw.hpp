@@ -69,16 +69,15 @@ LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
   return {};
 }
 
-/// Whether a law may break its word in a run: one of the user's own. `is_proven` says that tests hold the pieces of a
-/// law to what Law asks, at each angle and for each memory.
+/// Whether a law may break its word in a run: one of the user's own.
 template <typename L>
-concept MayHaveFlaws = std::floating_point<typename L::Scalar> && !requires { requires L::is_proven; };
+concept MayHaveFlaws = std::floating_point<typename L::Scalar> && !is_proven<L>;
 
 /// Whether pieces of this law have a flaw. A law can answer itself: MixedLaw does.
 template <MayHaveFlaws L>
 constexpr bool has_flaw(const L& law, const PiecesOf<L>& pieces) noexcept {
-  if constexpr (requires { law.has_flaw(pieces); })
-    return law.has_flaw(pieces);
+  if constexpr (requires { L::has_flaw(law, pieces); })
+    return L::has_flaw(law, pieces);
   else
     return find_flaw(pieces).kind != LawFlaw::Kind::none;
 }

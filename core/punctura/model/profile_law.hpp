@@ -110,7 +110,6 @@ class BasicProfileLaw {
  public:
   using Scalar = Scalar_;
   using Pieces = ManyPieces<Scalar, 2 * Most + 1>;
-  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
 
   /// thickness: H, m. cos_beta: n.b, for pieces() and band().
   constexpr BasicProfileLaw(const BasicProfile<Scalar, Most>& profile, Scalar thickness,
@@ -135,6 +134,8 @@ class BasicProfileLaw {
   Scalar H_;
   Pieces pieces_;
 };
+template <typename Scalar, std::size_t Most>
+inline constexpr bool is_proven<BasicProfileLaw<Scalar, Most>> = true;
 using ProfileLaw = BasicProfileLaw<double>;
 static_assert(ObliqueLaw<ProfileLaw>);
 

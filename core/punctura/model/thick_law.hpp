@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "punctura/model/law.hpp"
 #include "punctura/model/membrane.hpp"
 #include "punctura/model/piecewise_band.hpp"
 
@@ -22,7 +23,6 @@ class BasicThickLaw {
  public:
   using Scalar = Scalar_;
   using Pieces = PiecewiseBand<Scalar, 5>;
-  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
 
   /// obliquity: beta, rad. pieces() and band() use it.
   constexpr BasicThickLaw(const BasicNeedle<Scalar>& needle, const BasicMembrane<Scalar>& membrane,
@@ -93,6 +93,8 @@ class BasicThickLaw {
   Pieces pieces_;
 };
 
+template <typename Scalar>
+inline constexpr bool is_proven<BasicThickLaw<Scalar>> = true;
 using ThickLaw = BasicThickLaw<double>;
 using ThickLawF = BasicThickLaw<float>;
 

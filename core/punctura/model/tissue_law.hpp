@@ -37,7 +37,6 @@ class BasicTissueLaw {
   /// Breaks: the knots, the same behind the far face, at most four of the cutting, the end of a hole, and the knots
   /// behind the slices that the tip has passed.
   using Pieces = TissueBand<Scalar, 3 * max_knots + 6>;
-  static constexpr bool is_proven = true;  ///< see MayHaveFlaws
   using Memory = BasicHole<Scalar>;
 
   /// cos_beta: n.b, for pieces() without n.b. chords: see profile_of().
@@ -152,6 +151,8 @@ class BasicTissueLaw {
   BasicProfile<Scalar> profile_;
   Pieces pieces_;
 };
+template <typename Scalar>
+inline constexpr bool is_proven<BasicTissueLaw<Scalar>> = true;
 using TissueLaw = BasicTissueLaw<double>;
 static_assert(ObliqueLaw<TissueLaw> && LawWithMemory<TissueLaw>);
 

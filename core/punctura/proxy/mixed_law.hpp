@@ -1,6 +1,7 @@
 // A scene in which membranes have different laws.
 #pragma once
 
+#include <concepts>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -78,7 +79,6 @@ class MixedLaw {
  public:
   using Scalar = typename std::tuple_element_t<0, std::tuple<Laws...>>::Scalar;
   using Pieces = MixedPieces<PiecesOf<Laws>...>;
-  static constexpr bool is_proven = !(MayHaveFlaws<Laws> || ...);
   /// The memory of the law in use, from its first advance() on. Before that, the law has an untouched Memory{}.
   struct Memory : std::variant<typename MemoryOf<Laws>::type...> {
     using Each = std::variant<typename MemoryOf<Laws>::type...>;
@@ -143,9 +143,10 @@ class MixedLaw {
     });
   }
 
-  constexpr bool has_flaw(const Pieces& pieces) const noexcept {
+  /// Not for a law that is derived from this one: its pieces may be others.
+  static constexpr bool has_flaw(const std::same_as<MixedLaw> auto& mixed, const Pieces& pieces) noexcept {
     bool flawed = false;
-    visit([&]<std::size_t i>(const auto& law) {
+    mixed.visit([&]<std::size_t i>(const auto& law) {
       if constexpr (MayHaveFlaws<Each<i>>) flawed = punctura::has_flaw(law, pieces.template of<i>());
     });
     return flawed;
@@ -201,5 +202,7 @@ class MixedLaw {
   std::variant<Laws...> law_;
   Pieces pieces_;
 };
+template <ObliqueLaw... Laws>
+inline constexpr bool is_proven<MixedLaw<Laws...>> = !(MayHaveFlaws<Laws> || ...);
 
 }  // namespace punctura

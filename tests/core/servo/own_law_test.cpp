@@ -212,6 +212,47 @@ TEST_CASE("a law that breaks its word in a run is a fault before the hand feels 
     }
 }
 
+namespace {
+/// After 1 s, its pieces are not those of its base.
+struct DerivedLaw : ThickLaw {
+  struct Memory {
+    double time;
+  };
+  using ThickLaw::pieces;
+  using ThickLaw::ThickLaw;
+  Pieces pieces(double cos_beta, const Memory& memory) const noexcept {
+    return memory.time > 1 ? with_room<5>(with_band({0.2}, {0.3})) : pieces(cos_beta);
+  }
+  bool advance(Memory& memory, double, double dt) const noexcept { return memory.time += dt, true; }
+};
+struct DerivedMixedLaw : MixedLaw<ThickLaw, TissueLaw> {
+  using Base = MixedLaw<ThickLaw, TissueLaw>;
+  using Base::Base;
+};
+static_assert(!MayHaveFlaws<ThickLaw> && !MayHaveFlaws<ProfileLaw> && !MayHaveFlaws<TissueLaw> &&
+              !MayHaveFlaws<DerivedMixedLaw::Base>);
+static_assert(MayHaveFlaws<DerivedLaw> && MayHaveFlaws<MixedLaw<ThickLaw, DerivedLaw>> &&
+              MayHaveFlaws<DerivedMixedLaw>);
+}  // namespace
+
+TEST_CASE("a law derived from one of the package is checked in a run, alone and among others") {
+  const auto run = [](auto step) {
+    for (std::uint64_t k = 0; k < 2400; ++k) {
+      step.step(reading(k, 2e-3 - 10e-3 * static_cast<double>(k) / 1600));
+      if (k < 1500) CHECK(step.fault() == Fault::none);
+    }
+    CHECK(step.fault() == Fault::non_finite_force);
+  };
+  const DerivedLaw law(paper_needle, paper_membrane(1e-3));
+  run(build<double>(paper_scene(1e-3), [&](auto&&...) { return law; }));
+  run(build<double>(paper_scene(1e-3), [&](auto&&...) { return MixedLaw<ThickLaw, DerivedLaw>(law); }));
+
+  const DerivedMixedLaw among(ThickLaw(paper_needle, paper_membrane(1e-3)));
+  const auto bad = with_room<5>(with_band({0.2}, {0.3}));
+  CHECK(!has_flaw(among, among.pieces()));
+  CHECK(has_flaw(among, DerivedMixedLaw::Pieces(std::in_place_index<0>, bad)));
+}
+
 TEST_CASE("an upper edge below 0 N, which pushes the needle out as in K06, is no fault") {
   auto step = build<double>(paper_scene(1e-3), [&](auto&&...) { return FailingLaw{with_band({-0.3}, {-0.1})}; });
   for (std::uint64_t k = 0; k < 2400; ++k) step.step(reading(k, 2e-3 - 10e-3 * static_cast<double>(k) / 1600));
