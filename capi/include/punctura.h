@@ -72,7 +72,9 @@ PUNCTURA_API punctura_status punctura_problem(int32_t index, const char** path, 
 
 typedef struct punctura_scene punctura_scene;
 
-/* From the text of a scene file, of `size` bytes without a NUL, at most 256 KiB. docs/scene-file.md. */
+/* From the text of a scene file, of `size` bytes without a NUL, at most 256 KiB. docs/scene-file.md. A size that is
+ * larger than the text is refused if a NUL ends the text or if the size is above this limit. Otherwise the bytes behind
+ * the text are read as well. */
 PUNCTURA_API punctura_status punctura_scene_from_toml(const char* text, size_t size, punctura_scene** scene);
 
 /* From lines PATH = NUMBER and PATH = "WORD", in SI units, with the paths of punctura_scene_set() and
