@@ -34,15 +34,20 @@ void PolledDevice::start(Tick tick) {
   }
 }
 
-/// If the model hangs in a tick, the device gets zero force without it. stop() then waits for the tick, whose loop and
-/// device must live as long.
+/// If the model hangs in a tick, the device gets zero force without it, also if the thread was late and enters the tick
+/// only now. stop() then waits for the tick, whose loop and device must live as long.
 void PolledDevice::stop() noexcept {
   stopping_ = true;
   if (!thread_.joinable()) return;
   const auto until = std::chrono::steady_clock::now() + patience;
-  while (at_ != At::over && std::chrono::steady_clock::now() < until)
+  while (at_ != At::over) {
     std::this_thread::sleep_for(std::chrono::microseconds(200));
-  if (At in_tick = At::tick; at_.compare_exchange_strong(in_tick, At::lost)) end();
+    At in_tick = At::tick;
+    if (std::chrono::steady_clock::now() >= until && at_.compare_exchange_strong(in_tick, At::lost)) {
+      end();
+      break;
+    }
+  }
   thread_.join();
 }
 
@@ -58,7 +63,7 @@ void PolledDevice::run(Tick tick) noexcept {
   for (count_ = 0; !stopping_; ++count_) {
     if (pacing_.waits) missed_.fetch_add(pacer.wait(), std::memory_order_relaxed);
     if (stopping_) break;
-    if (next = read(); next != Next::tick) break;
+    if (next = read(); next != Next::tick || stopping_) break;
     at_ = At::tick;
     Tick::Force force = tick(sample_);
     if (At in_tick = At::tick; !at_.compare_exchange_strong(in_tick, At::device)) return;  // stop() has ended it

@@ -47,9 +47,11 @@ class PolledDevice : public Device {
   /// Reads the device into sample_, with its time.
   virtual Next read() noexcept = 0;
   virtual Next write(const Tick::Force& force) noexcept = 0;
-  /// Zero force. After trouble, one last tick with healthy = false follows, whose force is not used. If a tick does not
-  /// return within `patience` of stop(), it is called on the thread of stop(), while that tick still runs.
-  virtual void end() noexcept {}
+  /// Zero force. After trouble, one last tick with healthy = false follows, whose force is not used.
+  ///
+  /// It runs on any thread: if a tick does not return within `patience` of stop(), the thread of stop() calls it while
+  /// that tick is still inside. So it must not touch sample_, and must not wait for the tick.
+  virtual void end() noexcept = 0;
   static constexpr std::chrono::milliseconds patience{100};
 
   std::uint64_t count() const noexcept { return count_; }  ///< ticks of this run so far

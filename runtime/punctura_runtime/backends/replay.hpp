@@ -36,6 +36,7 @@ class ReplayDevice : public PolledDevice {
   void begin() override { unhealthy_ = false; }
   Next read() noexcept override;
   Next write(const Tick::Force&) noexcept override { return Next::tick; }
+  void end() noexcept override {}
 
   std::vector<DeviceSample> samples_;
   std::atomic<bool> unhealthy_{false};

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "fakes/drd/rig.hpp"
+#include "runtime/support/hanging_tick.hpp"
+#include "runtime/support/soon.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -187,4 +189,22 @@ TEST_CASE("a device whose motors were off earlier is usable; motors that do not 
   dark.run(0.2);
   CHECK(dark.loop.latest().fault == Fault::device);
   CHECK(dark.device->trouble().find("has not switched its force on") < 100);
+}
+
+TEST_CASE("if a tick does not return, stop() switches the force off meanwhile") {
+  FakeRig rig;
+  HangingTick model(100);
+  CrankedClock::reset();
+  rig.device->start(model.tick());
+  CrankedClock::release();
+  CHECK(soon([&] { return model.inside(); }));
+  CHECK(fake().state().sent[2] == 1);
+  CHECK(fake().state().force_on == 1);
+  std::thread stops([&] { rig.device->stop(); });
+  CHECK(soon([] { return fake().state().force_on == 0; }));
+  for (const double component : fake().state().sent) CHECK(component == 0);
+  CHECK(model.inside());
+  model.returns = true;
+  stops.join();
+  for (const double component : fake().state().sent) CHECK(component == 0);
 }

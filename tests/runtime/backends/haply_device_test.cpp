@@ -6,8 +6,10 @@
 #include "core/support/tick.hpp"
 #include "punctura/lab/plant/experiment.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
+#include "runtime/support/hanging_tick.hpp"
 #include "runtime/support/haply_fake.hpp"
 #include "runtime/support/patient.hpp"
+#include "runtime/support/soon.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -184,6 +186,23 @@ TEST_CASE("stop sends zero force; a second stop or one before the start is harml
     CHECK(count.n == after);
   }
   HaplyDevice never_started(unhurried(fake));
+}
+
+TEST_CASE("if a tick does not return, stop() sends zero force meanwhile") {
+  HaplyFake fake;
+  HaplyDevice device(unhurried(fake));
+  HangingTick model(100);
+  fake.begin();
+  device.start(model.tick());
+  CHECK(soon([&] { return model.inside(); }));
+  CHECK(fake.forces().back()[1] == doctest::Approx(1));
+  std::thread stops([&] { device.stop(); });
+  CHECK(soon([&] { return fake.client_left(); }));
+  CHECK(fake.forces().back() == zero);
+  CHECK(model.inside());
+  model.returns = true;
+  stops.join();
+  CHECK(fake.forces().back() == zero);
 }
 
 namespace {

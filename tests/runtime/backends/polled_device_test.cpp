@@ -2,7 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include "runtime/support/hanging_tick.hpp"
+#include "runtime/support/soon.hpp"
+
 using namespace punctura;
+using namespace punctura::test;
 
 namespace {
 
@@ -97,32 +101,44 @@ TEST_CASE("a lost device has zero force before the loop gets its one unhealthy s
 }
 
 TEST_CASE("if a tick does not return, stop() gives zero force without it, and its force is never written") {
-  struct Hanging {
-    std::atomic<int> calls{0};
-    std::atomic<bool> returns{false};
-  } model;
-  const Tick tick{[](void* to, const DeviceSample&) noexcept {
-                    auto& m = *static_cast<Hanging*>(to);
-                    for (++m.calls; m.calls == 3 && !m.returns;) std::this_thread::yield();
-                    return Tick::Force{1, 2, 3};
-                  },
-                  &model, 5};
+  HangingTick model(3);
   Bare device;
-  device.start(tick);
-  while (model.calls < 3) std::this_thread::yield();
-  CHECK(device.last == Tick::Force{1, 2, 3});
+  device.start(model.tick());
+  REQUIRE(soon([&] { return model.calls == 3; }));
+  CHECK(device.last == Tick::Force{0, 1, 0});
   std::thread stops([&] { device.stop(); });
-  while (device.ends == 0) std::this_thread::yield();
+  CHECK(soon([&] { return device.ends == 1; }));
   CHECK(device.last == Tick::Force{0, 0, 0});
   model.returns = true;
   stops.join();
   CHECK(device.last == Tick::Force{0, 0, 0});
   CHECK(device.ends == 1);
   CHECK(model.calls == 3);
-  device.start(tick);
-  while (model.calls < 5) std::this_thread::yield();
+  device.start(model.tick());
+  CHECK(soon([&] { return model.calls >= 5; }));
   device.stop();
   CHECK(device.ends == 2);
+}
+
+TEST_CASE("a reading that comes long after stop() leads to zero force, though a tick would not return") {
+  struct SlowToRead : Bare {
+    ~SlowToRead() override { stop(); }
+    Next read() noexcept override {
+      while (!may_read) std::this_thread::yield();
+      return Bare::read();
+    }
+    std::atomic<bool> may_read{false};
+  };
+  HangingTick model(1);
+  SlowToRead device;
+  device.start(model.tick());
+  std::thread stops([&] { device.stop(); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // stop() has most often waited long enough by then
+  device.may_read = true;
+  CHECK(soon([&] { return device.ends == 1; }));
+  model.returns = true;
+  stops.join();
+  CHECK(device.last == Tick::Force{0, 0, 0});
 }
 
 TEST_CASE("the thread itself requests real-time scheduling, before the preparation") {
