@@ -30,7 +30,8 @@ RUNTIME = ROOT / "runtime"
 # What an example in C++ needs of the runtime, on the system that builds the documentation.
 SOURCES = (
     *(f"os/{name}.cpp" for name in ("linux", "posix_library", "socket")),
-    *("loop/servo_loop.cpp", "loop/thumb_loop.cpp", "backends/polled_device.cpp", "backends/simulated.cpp"),
+    *("loop/servo_loop.cpp", "loop/end_of_run.cpp", "loop/thumb_loop.cpp"),
+    *("backends/polled_device.cpp", "backends/simulated.cpp"),
     "batch/blocks.cpp",
 )
 PEAK = re.compile(r"rest +([\d.]+) s +second peak +([\d.]+) N")

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <thread>
 
-#include "punctura/model/decimal.hpp"
 #include "punctura_runtime/loop/motor_rest.hpp"
 
 namespace punctura {
@@ -98,6 +97,8 @@ void ServoLoop::start(double duration) {
       ask(reset_bit);  // do not take the motion since the last run for one of this run
     over_ = false;
     silent_s_ = thumb_silent_s_ = 0;
+    halting_ = withdrawn_ = false;
+    held_square_ = 0;
     ends_at_ = duration < 1e9 ? settings_.now_ns() + static_cast<std::int64_t>(duration * 1e9) : never_;
   }
   const std::uint64_t ticks = ticks_, thumb_ticks = settings_.thumb ? settings_.thumb->ticks() : 0;
@@ -132,71 +133,11 @@ void ServoLoop::run(double duration) {
   stop();
 }
 
-/// From the watching thread. False if there is nothing more to watch.
-bool ServoLoop::look() noexcept {
-  const std::unique_lock one(starting_or_stopping_, std::try_to_lock);
-  if (!one) return true;  // start() or stop() is at work, and may be waiting for this thread
-  if (!running_) return false;
-  const std::int64_t now = settings_.now_ns();
-  silent_s_ = ticks_watch_.silent(ticks_, now, device_->longest_silence(), settings_.gate.deadline);
-  if (ThumbLoop* thumb = settings_.thumb.get())
-    thumb_silent_s_ =
-        thumb_watch_.silent(thumb->ticks(), now, thumb->device().longest_silence(), thumb->gate().deadline);
-  if (now < ends_at_ && silent_s_ == 0 && thumb_silent_s_ == 0) return true;
-  over_ = true;  // first: a driver's stop may never return
-  halt();
-  return false;
-}
-
-std::string ServoLoop::silence() const {
-  const double needle = silent_s_, thumb = thumb_silent_s_;
-  if (!over_ || (needle == 0 && thumb == 0)) return {};
-  return std::string(needle != 0 ? "the device's" : "the second device's") + " ticks have ceased, for " +
-         decimal_text(needle != 0 ? needle : thumb, 2) +
-         " s, and the run is stopped: should the device still pull, switch it off";
-}
-
-void ServoLoop::halt() noexcept {
-  if (!running_) return;
-  ask(pause_bit);
-  device_->stop();
-  stop_thumb();
-  asked_.fetch_and(~(arm_bit | pause_bit));  // requests of the run that has ended
-  end_run();
-}
-
-void ServoLoop::stop_thumb() noexcept {
-  if (thumb_runs_) settings_.thumb->stop();
-  thumb_runs_ = false;
-}
-
-/// After the last tick. Takes a scene that no tick has taken.
-void ServoLoop::end_run() noexcept {
-  const std::lock_guard lock(between_ticks_);
-  running_ = false;
-  const double now = seconds();
-  if (last_begin_ != 0) step_->guard().end(now - static_cast<double>(last_begin_) * 1e-9);
-  keep_spent(*device_, step_->guard().spent(), now);
-  handover_.collect();
-  take();
-}
-
-double ServoLoop::spent() {
-  const std::lock_guard lock(between_ticks_);
-  return rested();
-}
-
-/// The time since the last run on this device counts as rest, until the first call. So a recorder that asks before
-/// start() gets the value with which the run begins.
-double ServoLoop::rested() {
-  if (rest_counted_) return kept_spent(*device_);
-  rest_counted_ = true;
-  return punctura::rested(*device_, settings_.limits, seconds());
-}
-
 void ServoLoop::stop_all() noexcept {
   auto& [mutex, loops] = all_loops();
   const std::lock_guard lock(mutex);
+  for (ServoLoop* loop : loops)
+    if (loop->running_) loop->pause();
   for (ServoLoop* loop : loops) loop->stop();
 }
 
@@ -280,6 +221,11 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
   in_scene.thumb = thumb_depth(sample);
   if (settings_.thumb) in_scene.thumb_felt = settings_.thumb->force();
   const Snapshot& snapshot = step_->step(in_scene);
+  if (halting_) {
+    withdrawn_ = true;
+    last_begin_ = begin;                                  // until then the step has counted the force before
+    if (snapshot.fault == Fault::none) return {0, 0, 0};  // no record of a force that the hand never gets
+  }
   if (settings_.thumb)
     settings_.thumb->give(step_->guard().thumb_force(),
                           snapshot.state == ServoState::active && step_->guard().syringe().has_value());
@@ -293,6 +239,7 @@ Tick::Force ServoLoop::tick(const DeviceSample& sample) noexcept {
     if (static_cast<double>(period) * 1e-9 > 1.5 * period_) late_.fetch_add(1, std::memory_order_relaxed);
   }
   last_begin_ = begin;
+  if (!withdrawn_) held_square_ = to_vector(snapshot.force).squaredNorm();
   ticks_.fetch_add(1, std::memory_order_relaxed);
   const Tick::Force force = placed_ ? placer_.to_device(snapshot.force) : snapshot.force;
   compute_times_.add(settings_.now_ns() - begin);

@@ -85,7 +85,9 @@ class ServoLoop {
   bool over() const noexcept { return over_; }
   /// Why ticks that ceased have ended the run, for the user; otherwise empty.
   std::string silence() const;
-  static void stop_all() noexcept;  ///< stops all loops at the end of the program
+  /// Stops all loops at the end of the program. First their next ticks give no force: one that cannot be stopped leaves
+  /// no other one with force.
+  static void stop_all() noexcept;
 
   void arm() noexcept { ask(arm_bit); }      ///< force from the moment when the tip is outside tissue
   void pause() noexcept { ask(pause_bit); }  ///< no force; ticks continue
@@ -122,6 +124,7 @@ class ServoLoop {
   bool look() noexcept;
   void halt() noexcept;
   void end_run() noexcept;
+  double spent_with_the_last_force(double now) noexcept;
   Tick::Force after_the_end(std::int64_t now) noexcept;
   void stop_thumb() noexcept;
   double rested();
@@ -145,8 +148,9 @@ class ServoLoop {
   Placer placer_;
   bool placed_;  ///< false for the default placement: samples and forces then pass unchanged
   std::atomic<bool> running_{false};
-  bool thumb_runs_ = false;    ///< this loop has started the thumb's device
-  bool rest_counted_ = false;  ///< the time since the last run has been counted as rest
+  bool thumb_runs_ = false;           ///< this loop has started the thumb's device
+  bool rest_counted_ = false;         ///< the time since the last run has been counted as rest
+  std::atomic<bool> halting_{false};  ///< the device is being stopped: no force of a tick counts from now on
 
   // Used by the ticking thread; between runs, by the holder of between_ticks_.
   std::unique_ptr<AnyStep> step_;
@@ -154,6 +158,8 @@ class ServoLoop {
   std::vector<Snapshot> history_;
   std::uint64_t remembered_ = 0;
   double simulated_thumb_ = 0;  ///< m
+  double held_square_ = 0;      ///< the square of the last force that a tick gave before halting_, N^2
+  bool withdrawn_ = false;      ///< a tick returned after halting_: its force was not given
 
   // Shared between threads.
   std::int64_t ends_at_ = never_;  ///< ns; set before the first tick

@@ -37,13 +37,13 @@ class TickWatch {
   std::int64_t since_ = 0;
 };
 
-/// Calls look() about 20 times a second, until it returns false, or until stop(). It asks for a low real-time priority,
-/// so that a busy computer does not hold it up.
+/// Calls look() about 20 times a second, until it returns false, or until stop(). It asks for a real-time priority
+/// above the usual one of ticks, so that neither a busy computer nor a tick that does not return holds it up.
 class WatchThread {
  public:
   static constexpr std::chrono::milliseconds interval{50};
   static constexpr os::RealtimeSettings priority{
-      .priority = 10, .lock_memory = false, .awake = false, .period = std::chrono::duration<double>(interval).count()};
+      .priority = 90, .lock_memory = false, .awake = false, .period = std::chrono::duration<double>(interval).count()};
 
   WatchThread() = default;
   WatchThread(const WatchThread&) = delete;

@@ -12,11 +12,11 @@
 
 #include "core/support/tick.hpp"
 #include "punctura_runtime/backends/fed.hpp"
-#include "punctura_runtime/backends/polled_device.hpp"
 #include "punctura_runtime/backends/replay.hpp"
 #include "punctura_runtime/backends/simulated.hpp"
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
+#include "runtime/support/soon.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -43,17 +43,8 @@ struct WatchedRun {
     made.now_ns = []() noexcept { return run_clock_ns.load(); };
     return made;
   }
-  /// Waits for the thread of the loop. False after a minute.
-  template <typename Condition>
-  static bool until(Condition&& condition) {
-    for (int i = 0; i < 60'000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
-  }
   bool stopped() {
-    return until([&] { return !loop.running(); });
+    return soon([&] { return !loop.running(); });
   }
   ServoLoop loop;
 };
@@ -68,7 +59,7 @@ struct WatchedDevice : FedDevice {
   /// Waits until the loop has looked once with the present time. False after a minute, and when the run has ended.
   bool looked_at() const {
     const int third = looks + 3;  // the first may have begun before, and the second has ended when the third begins
-    return WatchedRun::until([&] { return looks >= third; });
+    return soon([&] { return looks >= third; });
   }
   mutable std::atomic<int> looks{0};
 };
@@ -109,7 +100,7 @@ TEST_CASE("a loop stops a device whose ticks cease, and says so") {
   run_clock_ns += 29 * one_second;
   CHECK_FALSE(w.loop.over());
   device->feed({{0, 1e-3, 0}});
-  CHECK(WatchedRun::until([&] {
+  CHECK(soon([&] {
     run_clock_ns += one_second / 20;
     return !w.loop.running();
   }));
@@ -188,7 +179,7 @@ TEST_CASE("the thread that watches has real-time priority, where the system gran
     policy = sched_getscheduler(0);
     return false;
   });
-  CHECK(WatchedRun::until([&] { return policy != -1; }));
+  CHECK(soon([&] { return policy != -1; }));
   CHECK(policy == (granted ? SCHED_FIFO : SCHED_OTHER));
 }
 
@@ -241,62 +232,10 @@ TEST_CASE("a driver whose stop does not return hides neither the end nor its rea
   WatchedRun w(device);
   w.loop.start();
   run_clock_ns += 31 * one_second;
-  CHECK(WatchedRun::until([&] { return w.loop.over(); }));
+  CHECK(soon([&] { return w.loop.over(); }));
   CHECK_FALSE(w.loop.silence().empty());
   device->released = true;
   CHECK(w.stopped());
-}
-
-namespace {
-/// Holds the needle with 0.3 N. Where `hangs` is set, its tick does not return.
-struct HangingLaw {
-  using Scalar = double;
-  struct Memory {};
-  static inline std::atomic<bool> hangs{false}, in_tick{false};
-  PiecewiseBand<double, 2> pieces(double, const Memory&) const noexcept { return {{0}, {{{}, {0, {-0.3}, {0.3}}}}}; }
-  bool advance(Memory&, double) const noexcept {
-    while (hangs) in_tick = true;
-    return false;
-  }
-};
-/// Goes 5 mm into the tissue, and stays there.
-struct HeldDevice : PolledDevice {
-  HeldDevice() {
-    info_.rate = 1600;
-    pacing_ = {false, false};
-  }
-  ~HeldDevice() override { stop(); }
-  Next read() noexcept override {
-    sample_.sequence = count();
-    sample_.time = now();
-    sample_.position[1] = std::max(2e-3 - 5e-3 * sample_.time, -5e-3);
-    return Next::tick;
-  }
-  Next write(const Tick::Force& force) noexcept override { return upwards = force[1], Next::tick; }
-  void end() noexcept override { upwards = 0; }
-  std::atomic<double> upwards{0};
-};
-}  // namespace
-
-TEST_CASE("if a law does not return from a tick, the loop's thread ends the force, and the run when it returns") {
-  HangingLaw::hangs = HangingLaw::in_tick = false;
-  const auto device = std::make_shared<HeldDevice>();
-  LoopSettings settings = WatchedRun::settings({});
-  settings.model = StepMaker::with_laws([](auto&&...) { return HangingLaw{}; });
-  ServoLoop loop(device, paper_scene(), settings);
-  loop.arm();
-  loop.start();
-  REQUIRE(WatchedRun::until([&] { return device->upwards > 0.25; }));
-  HangingLaw::hangs = true;
-  REQUIRE(WatchedRun::until([&] { return HangingLaw::in_tick.load(); }));
-  CHECK(device->upwards > 0.25);  // the device holds it
-  CHECK(WatchedRun::until([&] { return run_clock_ns += one_second / 100, device->upwards == 0; }));
-  CHECK(loop.over());
-  CHECK(loop.running());
-  HangingLaw::hangs = false;
-  CHECK(WatchedRun::until([&] { return !loop.running(); }));
-  CHECK(device->upwards == 0);
-  CHECK(loop.silence().find("ticks have ceased") != std::string::npos);
 }
 
 TEST_CASE("run() arms, and ends with the device's last tick or with a fault") {
