@@ -94,8 +94,13 @@ class ProtocolFile(Table):
 
 SCHEMA = Schema(
     ProtocolFile,
-    {"stimulus": StimulusTable, "trials": TrialsTable, "words": WordsTable}
-    | dict.fromkeys(("answers", "values"), ProtocolFile),
+    {
+        "stimulus": StimulusTable,
+        "trials": TrialsTable,
+        "words": WordsTable,
+        "answers": ProtocolFile,
+        "values": ProtocolFile,
+    },
 )
 
 
