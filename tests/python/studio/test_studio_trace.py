@@ -7,7 +7,7 @@ import punctura as pn
 import pytest
 from attempts import as_a_device_runs_it, motion_of
 from punctura._core import SimulatedDevice, tip_length
-from punctura.events import find_events
+from punctura.events import find_events, finder
 from punctura.events.finder import recorded_ticks
 from punctura.exercise import load_exercise, score
 from punctura.exercise.ticks import Geometry, judged_depth
@@ -110,9 +110,9 @@ def test_the_judged_depth_is_behind_a_wall_when_the_verdict_has_the_point_there(
 
 def of_columns(monkeypatch, columns, **asked):
     """The trace of these columns instead of those of a recording."""
-    monkeypatch.setattr(trace, "recorded_ticks", lambda recording: [(columns, None)])
+    monkeypatch.setattr(finder, "recorded_ticks", lambda recording: [(columns, None)])
     summary = SimpleNamespace(first_tick=int(columns["tick"][0]))
-    info = SimpleNamespace(scene=pn.load_scene("k06-fig10"))
+    info = SimpleNamespace(scene=pn.load_scene("k06-fig10"), rivals=[])
     return thinned_trace(SimpleNamespace(info=info, rows=len(columns["tick"]), summary=summary), **asked)
 
 
