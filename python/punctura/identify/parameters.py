@@ -143,6 +143,7 @@ class Free:
         self.late = [kind for kind in LATE if kind in self.names]
         self._last: tuple[bytes, Array] | None = None  # coordinates, and the vector of all parameters
         low, high = np.array([self._range(name) for name in self.names]).reshape(-1, 2).T
+        self._least, self._most = low, high
         self.low, self.high = self._coordinates(low), self._coordinates(high)
         surfaces = [indices(f"membrane[{i}].surface", m)[0] for i in range(m)]
         vector = base.vector()
@@ -181,7 +182,8 @@ class Free:
     def _without_pops(self, u: Array) -> Array:
         """The vector of all parameters for these coordinates, if those of the surfaces were the surfaces."""
         vector = self.base.vector()
-        values = np.where(self._log, np.exp(np.where(self._log, u, 0.0)), u)
+        # exp(log(bound)) may lie behind the bound by a rounding error, and then no scene takes the value
+        values = np.where(self._log, np.clip(np.exp(np.where(self._log, u, 0.0)), self._least, self._most), u)
         vector[self._rows] = values[self._owner]
         return vector
 

@@ -77,6 +77,13 @@ def test_coordinates_lead_back_to_the_parameters_and_keep_the_pop():
     assert free.coordinates(changed)[0] == pytest.approx(u[0])
 
 
+def test_a_parameter_at_its_bound_does_not_pass_it_by_a_rounding_error():
+    start = Parameters(NEEDLE, np.array([default_membrane()]), default_coupling(900))
+    free = Free(["relaxation_2_time"], start)
+    assert np.exp(free.high[0]) > 1e4  # a scene takes at most 1e4 s
+    assert free.parameters(free.high).get("relaxation_2_time") == 1e4
+
+
 def test_the_coordinate_of_a_wall_that_pops_behind_the_trace_is_its_surface():
     row = default_membrane()
     row[:5] = [5.013e-3, 400, 0.2, 0.3, 0.3e-3]
