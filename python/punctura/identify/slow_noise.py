@@ -13,6 +13,7 @@ from punctura.identify.parameters import Parameters
 from punctura.trace import TraceError
 
 ROUNDS = 3  # each with the noise that the fit before shows
+LOST = 3.0  # times the error of the fit without slow noise: what leaves more takes tissue for noise
 
 
 def with_slow_noise(found: Fit, air: AirNoise, others: Sequence[Parameters] = ()) -> Fit:
@@ -20,6 +21,7 @@ def with_slow_noise(found: Fit, air: AirNoise, others: Sequence[Parameters] = ()
 
     others: where searches begin, too.
     """
+    most = LOST * found.rmse
     for _ in range(ROUNDS):
         noise, variance = found.measured.noise.most_likely()
         known = found.misfit.whitening
@@ -28,7 +30,10 @@ def with_slow_noise(found: Fit, air: AirNoise, others: Sequence[Parameters] = ()
         misfit = found.misfit.whitened(found.parameters, noise)
         try:
             starts = [Start(one) for one in (found.parameters, *others)]
-            found = in_order(with_pops_moved(best_fit(misfit, found.free.names, starts)))
+            likely = in_order(with_pops_moved(best_fit(misfit, found.free.names, starts)))
         except TraceError:
             break
+        if likely.rmse > most:
+            break
+        found = likely
     return found

@@ -87,6 +87,7 @@ def _springs(fit: Fit) -> Iterator[str]:
 
 def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iterator[str]:
     slow, other = fit.noise.slow_and_white()
+    slow = min(slow, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
     if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
     if air.allows(*fit.noise.most_likely()):

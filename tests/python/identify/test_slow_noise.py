@@ -1,9 +1,11 @@
 """The noise of a fit: mixtures of white and slow noise, and what they do to intervals."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import punctura as pn
 import pytest
-from punctura.identify import identify
+from punctura.identify import identify, slow_noise
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import estimates
 from punctura.identify.noise import Mixture, NoiseOfFit
@@ -93,3 +95,24 @@ def test_the_noise_of_a_fit_is_computed_once(monkeypatch):
     monkeypatch.setattr(NoiseOfFit, "__init__", counted)
     identify(trace(noise=0.01)[::4], NEEDLE, membranes=1).as_dict()  # so short that the search uses all samples
     assert seen and len({id(residuals) for residuals in seen}) == len(seen)
+
+
+@pytest.mark.parametrize(("left", "taken"), [(2.9, True), (3.1, False)])
+def test_a_fit_that_leaves_far_more_than_without_slow_noise_is_not_taken(monkeypatch, left, taken):
+    shown = SimpleNamespace(noise=SimpleNamespace(most_likely=lambda: (Mixture(0.5, 20.0), 1.0)))
+
+    def fit_of(rmse):
+        misfit = SimpleNamespace(whitening=None, whitened=lambda parameters, noise: misfit)
+        return SimpleNamespace(
+            rmse=rmse, measured=shown, misfit=misfit, parameters=None, free=SimpleNamespace(names=())
+        )
+
+    plain, likely = fit_of(1.0), fit_of(left)
+    for name, change in (
+        ("best_fit", lambda *_: likely),
+        ("with_pops_moved", lambda fit: fit),
+        ("in_order", lambda fit: fit),
+    ):
+        monkeypatch.setattr(slow_noise, name, change)
+    air = SimpleNamespace(allows=lambda noise, variance: True)
+    assert slow_noise.with_slow_noise(plain, air) is (likely if taken else plain)
