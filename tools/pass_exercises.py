@@ -191,7 +191,7 @@ def attempt(page: Page, hand: Keys, slower: int) -> str:
             continue
         hand.move(-1 if "raw back" in words else 1, far=words == asked and most == 0)
         near = "hold it" in words or ("second pop" in asked and falls == 1)
-        page.wait_for_timeout(STEP_MS / 2 if pushing else slower * (LOOK_MS if near else STEP_MS))
+        page.wait_for_timeout(slower * (LOOK_MS if near else STEP_MS))
     return "not passed: no result"
 
 
