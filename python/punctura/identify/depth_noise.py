@@ -19,7 +19,7 @@ ROUNDS, NEAR = 10, 11  # of the accelerations; second differences of alike varia
 SHARED = (0.2, 0.6, 0.2)  # of the square of a second difference, with its neighbours: a turn is between two samples
 LEAST, MOST = 1e-7, 1e4  # variance of a second difference, in those of the noise
 FELT = 0.2  # of the noise of the force: what the noise of the depth adds matters beyond it
-SHARED_FELT = 0.05  # the same for an error that equal readings share
+SHARED_FELT = 0.05  # the same for an error that equal readings share, and for a noise that is stated
 ROUNDING = 1e-6  # of the range of the depths: less is no noise
 EVEN = 1.5  # times the shortest step of time, of the longest one
 HAND = 12.0  # Hz: a hand does not shake faster
@@ -45,7 +45,7 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
         shaking, rounded = steady_noise(trace.depth), rounding_noise(trace.depth)
         if shaking <= NOISIER * rounded and (found := _between_steps(trace, rounded)):
             return found, rounded
-    if not _matters(trace, shaking):
+    if not _matters(trace, shaking, FELT if noise is None else SHARED_FELT):
         return trace, 0.0
     quiet, variances = _quiet(trace.depth / shaking)
     if noise is None and _follows(trace, trace.depth / shaking - quiet):
@@ -80,7 +80,7 @@ def rounding_noise(depth: Array) -> float:
 
 def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
     """Why a stated noise of the depth, m, is not taken out: the trace is too short. Nothing if it does not matter."""
-    if noise is None or len(trace) >= SHORTEST or not _matters(trace, noise):
+    if noise is None or len(trace) >= SHORTEST or not _matters(trace, noise, SHARED_FELT):
         return ()
     return (
         f"The stated noise of the depth, {noise:.3g} m, is not taken into account: that needs {SHORTEST} samples, and "

@@ -132,6 +132,11 @@ def test_a_stated_noise_counts():
     assert str(known) == "depth_noise 8e-06 m, stated"
 
 
+def test_a_small_noise_counts_if_it_is_stated():
+    shaken = by_hand(1, 30e-6, 200, 0.3e-6)
+    assert with_quiet_depth(shaken)[1] == 0.0 and with_quiet_depth(shaken, 0.3e-6)[1] == 0.3e-6
+
+
 def test_the_last_fit_has_the_weights_of_its_own_model_also_in_a_short_trace(monkeypatch):
     """The search has no weights here; with several walls it has those of another number of walls."""
     trace, needle, _ = by_machine(1)
