@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from punctura._core import tip_length
 from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
@@ -20,6 +21,7 @@ NEVER = (
 )
 WITHDRAWAL = ("withdrawal", "record the withdrawal too: it shows the friction without the tip")
 BEFORE = ("air", "begin well before contact")
+TURN = ("", "turn a second time inside the tissue, at another speed")
 AGAIN = ("second", "insert a second time at the same place")
 REST = ("hold", "rest for 10 s inside the tissue")
 DEEPER = ("", "go on by two tip lengths behind the pop")
@@ -49,8 +51,8 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "offset": (BEFORE,),
     "lag": (QUICK,),
     "delay": (QUICK,),
-    "play": (("", "turn a second time inside the tissue, at another speed"),),
-    "slack": (("", "turn a second time inside the tissue, at another speed"),),
+    "play": (TURN,),
+    "slack": (TURN,),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
@@ -110,11 +112,10 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
 
 def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> Iterator[str]:
     has = _parts(trace, segments, sum(kind_of(estimate.name) == "surface" for estimate in estimates))
-    needle = fit.parameters.needle
-    tip = needle.diameter / float(np.tan(needle.tip_angle))
     begin = trace.depth[0 if segments.contact is None else segments.contact]
     given_way = (trace.force - fit.parameters.get("offset")) / fit.parameters.get("coupling_stiffness")
-    lengths = float((trace.depth - given_way).max() - begin) / tip  # of the tip itself, behind the spring
+    deepest = float((trace.depth - given_way).max())  # of the tip itself, behind the spring
+    lengths = (deepest - begin) / tip_length(fit.parameters.needle)
     for estimate in estimates:
         if not estimate.identifiable:
             known = _EXPERIMENTS.get(kind_of(estimate.name), ())
