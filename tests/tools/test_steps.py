@@ -58,7 +58,10 @@ def test_each_step_is_told_in_its_order_and_a_failure_with_the_end_of_its_log(tm
 
 def test_what_compiles_runs_beside_what_waits_and_the_steps_of_a_row_run_one_after_another(tmp_path):
     meet = "touch $1; for _ in $(seq 600); do if [ -e $2 ]; then return 0; fi; sleep 0.1; done; return 1"
-    steps = f"meet() {{ {meet}; }}; step_cpp() {{ meet a b; }}; step_page() {{ meet b a; }}; step_asan() {{ rm a; }}"
+    steps = (
+        f"meet() {{ {meet}; }}; step_cpp() {{ meet a b && touch cpp_ended; }};"
+        "step_page() { meet b a; }; step_asan() { test -e cpp_ended; }"
+    )
     with start(tmp_path, steps, "cpp", "asan", "page") as run:
         printed = run.communicate(timeout=PATIENCE_S)[0]
     assert run.returncode == 0 and "3 passed, 0 failed" in printed
