@@ -18,8 +18,7 @@ def command(
         typer.echo(json.dumps(entries, indent=2))
         return
     for entry in entries:
-        typer.echo(f"{entry['backend']:16} {entry['state'].replace('_', ' ')}")
+        names = ": " + ", ".join(entry["devices"]) if entry["devices"] else ""
+        typer.echo(f"{entry['backend']:16} {entry['state'].replace('_', ' ')}{names}")
         for line in entry["detail"].splitlines()[: None if verbose else 1]:
             typer.echo(f"{'':16} {line}")
-        for device in entry["devices"]:
-            typer.echo(f"{'':16} - {device}")
