@@ -119,8 +119,7 @@ punctura_status scene_from(const char* text, std::size_t size, std::size_t most,
       refuse("is larger than " + std::to_string(most / 1024) + " KiB: no scene needs that");
     else if (const void* nul = std::memchr(text, 0, size))
       refuse("ends after " + std::to_string(static_cast<const char*>(nul) - text) +
-             " bytes with a NUL, and its size is " + "given as " + std::to_string(size) +
-             ": give the size without the NUL");
+             " bytes with a NUL, and its size is given as " + std::to_string(size) + ": give the size without the NUL");
     else
       read(std::string_view(text, size), made->scene, problems);
     if (!problems.empty()) return fail(std::move(problems));

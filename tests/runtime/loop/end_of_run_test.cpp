@@ -17,6 +17,7 @@
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
 #include "runtime/support/soon.hpp"
+#include "runtime/support/stuck_in_stop.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -219,15 +220,6 @@ TEST_CASE("the longest silence: of hardware, of a deadline, of a device that nob
 }
 
 TEST_CASE("a driver whose stop does not return hides neither the end nor its reason") {
-  struct StuckInStop : FedDevice {
-    using FedDevice::FedDevice;
-    ~StuckInStop() override { released = true; }
-    void stop() noexcept override {
-      while (!released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      FedDevice::stop();
-    }
-    std::atomic<bool> released{false};
-  };
   auto device = std::make_shared<StuckInStop>(fed_device(true)->info());
   WatchedRun w(device);
   w.loop.start();

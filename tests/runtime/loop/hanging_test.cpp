@@ -11,6 +11,7 @@
 #include "punctura_runtime/loop/servo_loop.hpp"
 #include "runtime/support/hand_cranked.hpp"
 #include "runtime/support/soon.hpp"
+#include "runtime/support/stuck_in_stop.hpp"
 
 using namespace punctura;
 using namespace punctura::test;
@@ -137,16 +138,7 @@ TEST_CASE("a tick that returns after the stop gives and records no force; the bu
 }
 
 TEST_CASE("a loop whose stop does not return leaves no other loop of the program with force") {
-  struct Stuck : FedDevice {
-    using FedDevice::FedDevice;
-    ~Stuck() override { released = true; }
-    void stop() noexcept override {
-      while (!released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      FedDevice::stop();
-    }
-    std::atomic<bool> released{false};
-  };
-  const auto stuck = std::make_shared<Stuck>(fed_info(), false);
+  const auto stuck = std::make_shared<StuckInStop>(fed_info(), false);
   const auto device = std::make_shared<FedDevice>(fed_info(), false);
   ServoLoop first(stuck, paper_scene()), second(device, paper_scene());
   first.start();
