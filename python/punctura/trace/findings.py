@@ -184,7 +184,9 @@ def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
         text = "damping and relaxation cannot be told; record the time, too"
         yield Finding("no_time", text)
     if segments.contact is None:
-        text = "the force rises from the first samples on: the depth of contact is a guess; begin before contact"
+        unknown = "" if segments.exit is not None else ", and no air shows the zero and the noise of the force"
+        text = f"the force rises from the first samples on: the depth of contact is a guess{unknown}; "
+        text += "begin before contact"
         yield Finding("no_contact", text)
     if not any(stroke.kind == "out" for stroke in segments.strokes):
         text = "friction and grip cannot be told apart; record the withdrawal, too"

@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from punctura.trace.air import calm_noise, contact_sample
+from punctura.trace.air import FEWEST, contact_sample, spread
 from punctura.trace.segment import Pop, segment
 from punctura.trace.trace import Trace, TraceError
+from punctura.trace.turns import noise_of
 
 LOWER, UPPER = 0.2, 0.8  # of a rise: the gradient is that of the part between them
 LAST = 0.05  # of the way behind the contact: the final force is the mean over it
@@ -33,7 +34,7 @@ class InsertionNumbers:
 
     insertion: int  # 0 is the first one
     zero_N: float
-    noise_N: float  # from sample to sample: a peak is the greatest sample, so noise makes it greater
+    noise_N: float | None  # in air: a peak is the greatest sample, so noise makes it greater
     speed_m_per_s: float | None  # the median over equal parts of the way in
     contact_m: float | None
     deepest_m: float
@@ -59,6 +60,9 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
     zero = float(np.median(before)) if len(before) else 0.0
     level = replace(trace, force=trace.force - zero)
     segments = segment(level)
+    after = trace.force[len(trace) if segments.exit is None else segments.exit :]
+    air = [spread(force) for force in (before, after) if len(force) >= FEWEST]
+    noise = max(*air, noise_of(trace.force)) if air else None
     found = []
     for insertion in range(int(trace.strokes.max()) + 1):
         ways = [stroke for stroke in segments.strokes if stroke.insertion == insertion]
@@ -69,7 +73,7 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
         start, last = ways[0].start, ways[-1].end
         touched = segments.contact if insertion == 0 else _contact(level, start, end)
         pops = [pop for pop in segments.pops if start <= pop.start < end]
-        found.append(_numbers(level, insertion, (start, end, last), touched, pops, zero, float(np.cos(angle))))
+        found.append(_numbers(level, insertion, (start, end, last), touched, pops, (zero, noise), float(np.cos(angle))))
     if not found:
         raise TraceError(f"{trace.source or 'the trace'}: the needle never goes in")
     return tuple(found)
@@ -81,11 +85,11 @@ def _contact(trace: Trace, start: int, end: int) -> int | None:
 
 
 def _numbers(
-    trace: Trace, insertion: int, rows: tuple[int, int, int], contact: int | None, pops: list[Pop], zero: float,
-    cosine: float,
+    trace: Trace, insertion: int, rows: tuple[int, int, int], contact: int | None, pops: list[Pop],
+    air: tuple[float, float | None], cosine: float,
 ) -> InsertionNumbers:  # fmt: skip
-    """rows: where the way in begins, where it ends, and where the insertion ends."""
-    start, end, last = rows
+    """rows: where the way in begins, where it ends, and where the insertion ends. air: zero and noise, N."""
+    (start, end, last), (zero, noise) = rows, air
     first = start if contact is None else contact
     peak = first + int(np.argmax(trace.force[first:end]))
     deepest = float(trace.depth[start:last].max())
@@ -95,7 +99,7 @@ def _numbers(
     return InsertionNumbers(
         insertion=insertion,
         zero_N=zero,
-        noise_N=calm_noise(trace.force),
+        noise_N=noise,
         speed_m_per_s=_speed(trace, slice(first, end)),
         contact_m=None if contact is None else float(trace.depth[contact]),
         deepest_m=deepest,

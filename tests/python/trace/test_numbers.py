@@ -9,6 +9,7 @@ import openpyxl
 import pyarrow.parquet
 import pytest
 from punctura.trace import Trace, TraceError, segment
+from punctura.trace.findings import examine
 from punctura.trace.numbers import numbers_of
 from punctura.trace.numbers_table import spread
 from traces import force_of, motion, trace
@@ -73,6 +74,16 @@ def test_noise_moves_neither_the_gradient_nor_the_drop():
     assert clean.gradient_N_per_m > 0.3 * middle.force / (middle.depth - 5e-3)
     assert noisy.gradient_N_per_m == pytest.approx(clean.gradient_N_per_m, rel=0.05)
     assert noisy.pops[0].drop_N == pytest.approx(clean.pops[0].drop_N, rel=0.15) and noisy.noise_N < 0.025
+
+
+def test_the_noise_comes_from_air_and_is_not_known_without_it():
+    made = trace(noise=5e-3)
+    entered, deepest = int(np.argmax(made.depth > 6e-3)), int(np.argmax(made.depth))
+    rows = {"in": made[:deepest], "out": made[entered:], "none": made[entered:deepest]}
+    noises = {name: numbers_of(one)[0].noise_N for name, one in rows.items()}
+    assert noises["in"] == pytest.approx(5e-3, rel=0.2) and noises["out"] == pytest.approx(5e-3, rel=0.2)
+    assert noises["none"] is None
+    assert "noise" in next(found.text for found in examine(rows["none"]).findings if found.kind == "no_contact")
 
 
 def test_a_trace_that_never_goes_in_is_refused():
