@@ -91,7 +91,7 @@ def drift(axes: Axes, below: Axes) -> None:
     time, depth = motion()
     trace = noisy(time, depth, law(time, depth) + 0.1 * time / time[-1])
     print(*(finding.text for finding in examine(trace).findings), sep="\n")
-    fits = {"K06, one wall": fitted(trace), "with a drift of the sensor": fitted(trace, Model(1, drift=True))}
+    fits = {"K06, one wall": fitted(trace), "with a drift of the sensor": fitted(trace, Model(1, rig=("drift",)))}
     draw_two(axes, below, trace, "time, s", fits)
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from punctura.identify.noise import Mixture
 from punctura.trace import Segments, Stroke, Trace
 from punctura.trace.air import spread
+from punctura.trace.rig_force import RIG_FORCES, shapes
 
 Array = NDArray[np.float64]
 
@@ -36,10 +37,10 @@ class AirNoise:
         ends = [rows[:: -(-len(rows) // MOST)] for rows in (before, after) if len(rows) >= FEWEST]
         self._rows = np.concatenate(ends) if ends else np.arange(0)
         self._force = trace.force[self._rows]
-        shapes = [np.ones(n)]
-        if trace.time is not None and drifts(trace):
-            shapes.append(trace.time - trace.time[0])
-        self._known = np.column_stack(shapes)[self._rows]
+        known = [np.ones(n), *shapes(trace).T]
+        if trace.time is not None and "drift" in seen_in_air(trace):
+            known.append(trace.time - trace.time[0])
+        self._known = np.column_stack([one for one in known if one.any()])[self._rows]
         levels = [float(np.median(trace.force[rows])) for rows in ends]
         self._change = abs(levels[1] - levels[0]) if len(levels) == 2 else None
         self._noise = max(spread(trace.force[rows]) for rows in ends) if ends else np.inf
@@ -104,9 +105,12 @@ class AirNoise:
         return float(fixed + free * np.log(v) + squares / v)
 
 
-def drifts(trace: Trace) -> bool:
-    """Whether a finding says that the zero drifts: then each model has a drift over the time."""
-    return trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
+def seen_in_air(trace: Trace) -> tuple[str, ...]:
+    """What findings say of the rig: each model then has a drift over the time, and what is left of its forces."""
+    kinds = {finding.kind for finding in trace.findings}
+    return tuple(
+        name for name in ("drift", *RIG_FORCES) if name in kinds and (name != "drift" or trace.time is not None)
+    )
 
 
 def _steepest(trace: Trace) -> float:

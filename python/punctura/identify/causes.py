@@ -47,7 +47,7 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     air = in_air(trace, segments, fit)
     if air.sum() < FEWEST:
         return None
-    force = trace.force if trace.time is None else trace.force - fit.parameters.get("drift") * trace.time
+    force = trace.force - fit.misfit.of_rig(fit.parameters)
     force = force - float(np.median(force[air]))
     within = np.arange(len(trace))
     halves = []

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from punctura import Needle
-from punctura.identify.air_noise import drifts
+from punctura.identify.air_noise import seen_in_air
 from punctura.identify.criteria import EVIDENCE, Candidate, worth_a_fit
 from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
@@ -123,7 +123,7 @@ def choose(
 ) -> Choice:
     """Tries the models that this trace may ask for, and chooses one."""
     search = Search(trace, segments, needle, report, rig.late)
-    plain = search.fitted("K06", Model(membranes, drift=drifts(trace)), search.starts(membranes, False, 3))
+    plain = search.fitted("K06", Model(membranes, rig=seen_in_air(trace)), search.starts(membranes, False, 3))
     assert plain is not None
     choice = Choice(search, plain, plain, most)
     choice.settle()

@@ -10,6 +10,7 @@ from punctura.identify.causes import UNEVEN, Cause, both_ways, causes, way_out
 from punctura.identify.depth_noise import steady_noise
 from punctura.identify.explained import MATTERS, SURE, Explained, explained
 from punctura.identify.fit import Fit
+from punctura.identify.parameters import ZERO
 from punctura.identify.records import ExplainedRecord
 from punctura.trace import Segments, Trace
 
@@ -81,7 +82,7 @@ def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[C
     """A wall that the model has where the trace is in air: there, only the zero of the sensor can change."""
     if segments.contact is None:
         return ()
-    tissue = fit.misfit.forces(fit.parameters.with_values({"offset": 0.0, "drift": 0.0}))
+    tissue = fit.misfit.forces(fit.parameters.with_values(dict.fromkeys(ZERO, 0.0)))
     force = float(np.max(np.abs(tissue[: int(IN_AIR * segments.contact) + 1])))
     if force < max(assessment.noise, MATTERS * assessment.peak):
         return ()

@@ -100,7 +100,7 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     """
     residuals = (trace.force - fit.misfit.forces(fit.parameters)) / grown(trace, segments, fit)
     air = in_air(trace, segments, fit)
-    calm = trace.force[air] - (0.0 if trace.time is None else fit.parameters.nuisance[1] * trace.time[air])
+    calm = (trace.force - fit.misfit.of_rig(fit.parameters))[air]
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)
     peak = float(np.max(np.abs(trace.force)))
     slow = 0.0

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from punctura.identify.least_squares import least_squares
 from punctura.identify.noise import Mixture, NoiseOfFit
-from punctura.identify.parameters import Free, Parameters
+from punctura.identify.parameters import ZERO, Free, Parameters
 from punctura.identify.sensor import SensedModel
 from punctura.identify.whitening import Whitening
 from punctura.trace import Trace, TraceError
 from punctura.trace.air import spread
+from punctura.trace.rig_force import shapes
 
 Array = NDArray[np.float64]
 
@@ -50,9 +51,8 @@ class Misfit:
         self.whitening = whitening
         self._plain = bool(self.used.all() and (self.depth_error.weights == 1).all())
         self._model = SensedModel(parameters.needle, trace.depth, trace.time)
-        self._nuisance = np.column_stack((np.ones(len(trace)), np.zeros(len(trace))))
-        if trace.time is not None:
-            self._nuisance[:, 1] = trace.time - trace.time[0]
+        since = np.zeros(len(trace)) if trace.time is None else trace.time - trace.time[0]
+        self._nuisance = np.column_stack((np.ones(len(trace)), since, shapes(trace)))
 
     def free(self, names: Sequence[str], base: Parameters) -> Free:
         """These parameters as the free ones of a fit to this trace; all others are as in `base`."""
@@ -68,9 +68,12 @@ class Misfit:
         return float(np.ptp(trace.depth[near]) / np.ptp(trace.time[near]))
 
     def forces(self, parameters: Parameters) -> Array:
-        """The model's force at every sample (n,), N, with offset and drift of the sensor."""
-        zero = self._nuisance @ parameters.nuisance[:2]
-        return np.asarray(self._model.forces(parameters) + self.depth_error.mean + zero)
+        """The model's force at every sample (n,), N, with that of the rig."""
+        return np.asarray(self._model.forces(parameters) + self.depth_error.mean + self.of_rig(parameters))
+
+    def of_rig(self, parameters: Parameters) -> Array:
+        """What sensor and rig add at every sample (n,), N: offset, drift, friction of the slide, pull of a cable."""
+        return np.asarray(self._nuisance @ parameters.nuisance[: len(ZERO)])
 
     def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Model minus measured force at the used samples, N. blur: see blurred()."""

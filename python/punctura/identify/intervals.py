@@ -75,10 +75,12 @@ def estimates(
 def _widest(fit: Fit, name: str) -> float:
     """The width of an interval that tells nothing of a zero of the sensor, SI."""
     trace = fit.misfit.trace
-    if name == "offset":
+    if name in ("offset", "slide_friction"):
         return float(np.ptp(trace.force))
     if name == "drift" and trace.time is not None:
         return float(np.ptp(trace.force) / np.ptp(trace.time))
+    if name == "cable_stiffness":
+        return float(np.ptp(trace.force) / np.ptp(trace.depth))
     return np.inf
 
 

@@ -67,7 +67,7 @@ class Model:
     membranes: int
     extensions: tuple[Extension, ...] = ()
     one_tissue: bool = False
-    drift: bool = False
+    rig: tuple[str, ...] = ()  # of ZERO, beside the offset
     late: tuple[str, ...] = ()  # lag, delay
 
     @property
@@ -81,7 +81,7 @@ class Model:
         own = [kind for kind in OWN if not (self.one_tissue and kind in SHARED)]
         names = [f"membrane[{i}].{kind}" for i in range(self.membranes) for kind in own]
         names += [f"tissue.{kind}" for kind in SHARED] if self.one_tissue else []
-        names += ["coupling_stiffness", "offset", *(["drift"] if self.drift else []), *self.late]
+        names += ["coupling_stiffness", "offset", *self.rig, *self.late]
         return tuple(dict.fromkeys((*names, *(name for e in self.extensions for name in e.start))))
 
     def extended(self, extension: Extension) -> Model:

@@ -10,15 +10,20 @@ from numpy.typing import NDArray
 
 from punctura import Needle, Tissue
 from punctura._core import TraceModel
+from punctura.trace.rig_force import RIG_FORCES
 
 Array = NDArray[np.float64]
 
 MEMBRANE = TraceModel.membrane_names
 COUPLING = TraceModel.coupling_names
 LATE = ("lag", "delay", "play", "slack")  # s: of the force behind the depth; m: of the needle behind the drive
-NUISANCE = ("offset", "drift", *LATE)  # of the sensor
+ZERO = ("offset", "drift", *RIG_FORCES)  # what the force of a sample has beside that of the tissue
+NUISANCE = (*ZERO, *LATE)  # of the rig
 LATEST = {"lag": 0.2, "delay": 0.2, "play": 1e-3, "slack": 1e-3}  # s, m: what is more is no error of a rig
-UNITS = TraceModel.units | {"offset": "N", "drift": "N/s", "lag": "s", "delay": "s", "play": "m", "slack": "m"}
+UNITS = TraceModel.units | {
+    "offset": "N", "drift": "N/s", "slide_friction": "N", "cable_stiffness": "N/m", "lag": "s", "delay": "s",
+    "play": "m", "slack": "m",
+}  # fmt: skip
 _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",

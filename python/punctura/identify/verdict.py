@@ -53,6 +53,8 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "delay": (QUICK,),
     "play": (TURN,),
     "slack": (TURN,),
+    "slide_friction": (BEFORE,),
+    "cable_stiffness": (BEFORE,),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold

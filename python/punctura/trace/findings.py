@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import above_air, baseline, slope
+from punctura.trace.rig_force import without_rig_force
 from punctura.trace.samples import (
     gaps,
     nothing_seen,
@@ -45,6 +46,8 @@ def examine(trace: Trace) -> Trace:
             return replace(trace, findings=(*trace.findings, *found, _NO_INSERTION))
         trace = replace(trace, depth=-trace.depth)
         found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
+    trace, of_rig = without_rig_force(trace)
+    found += of_rig
     segments = segment(trace)
     going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
     touching = way_to_tissue(trace, segments.strokes)

@@ -25,7 +25,7 @@ def fitted(made, drift=False):
     row = default_membrane()
     row[:5] = 5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness
     start = Parameters(NEEDLE, np.array([row]), default_coupling(4000.0))
-    return fit(Misfit(made, start), Model(1, drift=drift).names, start)
+    return fit(Misfit(made, start), Model(1, rig=("drift",) if drift else ()).names, start)
 
 
 def doubted(made, extensions=()):

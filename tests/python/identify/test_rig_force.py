@@ -1,0 +1,68 @@
+"""Friction of the rig's slide and the pull of a cable: the air shows them, and they are no wall."""
+
+import runpy
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from punctura.identify import identify
+from punctura.trace import Trace
+from punctura.trace.findings import examine
+from punctura.trace.rig_force import without_rig_force
+from traces import MEMBRANE, NEEDLE, RATE, force_of, motion
+
+TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
+NOISE = 8e-3
+
+
+def rested(of_rig):
+    """A trace that rests in air at both ends; of_rig: the force that the rig adds, by depth (m) and speed (m/s)."""
+    depth = np.pad(motion(deepest=9e-3, speed=3e-3)[1] + 1e-3, 100, "edge")
+    speed = np.gradient(depth) * RATE
+    noise = NOISE * np.random.default_rng(3).normal(size=len(depth))
+    force = force_of(depth, surface=4e-3) + of_rig(depth, speed) + noise
+    return examine(Trace(depth, force, np.arange(len(depth)) / RATE))
+
+
+def kinds(trace):
+    return [finding.kind for finding in trace.findings]
+
+
+@pytest.mark.parametrize(
+    ("of_rig", "kind", "words"),
+    [
+        (lambda depth, speed: 0.12 * np.tanh(speed / 2e-4), "slide_friction", "by 0.12 N each way"),
+        (lambda depth, speed: 18 * depth, "cable_stiffness", "by +0.017 N a mm"),
+    ],
+)
+def test_a_force_of_the_rig_that_the_air_shows_is_named_and_is_no_wall(of_rig, kind, words):
+    trace = rested(of_rig)
+    (told,) = trace.findings
+    assert told.kind == kind and told.repaired and words in told.text
+    found = identify(trace, NEEDLE)
+    assert len(found.parameters.membranes) == 1 and found.extensions == () and found.doubts.sentences == ()
+    values = {estimate.name: estimate for estimate in found.estimates}
+    left = values[kind]  # beside what is subtracted; its error reaches the intervals of all others
+    assert left.low < left.high and left.identifiable
+    truth = {"stiffness": MEMBRANE.stiffness, "friction": MEMBRANE.friction, "surface": 4e-3}
+    assert [values[f"membrane[0].{name}"].value for name in truth] == pytest.approx(list(truth.values()), rel=0.02)
+
+
+def test_a_trace_without_such_a_force_has_none():
+    assert kinds(rested(lambda depth, speed: 0 * depth)) == []
+
+
+def test_friction_is_found_where_the_trace_ends_at_its_deepest():
+    whole = rested(lambda depth, speed: 0 * depth)
+    inward = whole[: int(np.argmax(whole.depth))]
+    rubbed = replace(inward, force=inward.force + 0.12 * (np.gradient(inward.depth) > 1e-6))
+    assert kinds(examine(rubbed))[0] == "slide_friction"
+    pulled = replace(inward, force=inward.force + 18 * inward.depth)  # a soft layer looks the same
+    assert "cable_stiffness" not in kinds(examine(pulled))
+
+
+def test_slow_noise_is_no_force_of_the_rig():
+    conditions = TOOL["Conditions"](machine=True, drift=0.03)
+    traces = [TOOL["random_trace"](seed, conditions)[0] for seed in range(20)]
+    assert [without_rig_force(trace)[1] for trace in traces] == [[]] * 20
