@@ -7,7 +7,6 @@ view is covered. Its answer is on the disk before the run of the next one begins
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -32,7 +31,7 @@ from punctura.studio.activity import Outcome
 from punctura.studio.loaded import Loaded
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import AnswerKey, SittingMessage
-from punctura.ticks import ABSENT, Ticks
+from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
 NOISE_S = 20
@@ -61,8 +60,9 @@ class PerceptionSitting:
         self._block: int | None = None  # of the trial before
         self._attempt = self._interval = 0  # at this trial, from 1; in this attempt, from 0
         self._over = True  # the interval: the needle may do what it wants
-        self._through = self._uncover_at = math.inf  # depth behind the judged membrane, m; on the clock of `ticks`
-        self._touched = self._was_through = False
+        self._through = math.inf  # depth behind the judged membrane, m
+        self._whole = self._faded = 0.0  # ticks since the force came on, and since the last stimulus began to fade in
+        self._touched = self._was_through = self._uncovered = False
         self._answers: Answers | None = None
         if agreed(protocol, self._folder, participant) or not protocol.file.consent:
             self._open()
@@ -156,13 +156,13 @@ class PerceptionSitting:
         """The interval begins: the needle may go through the tissue as soon as the view is uncovered."""
         self._say(self._words.wait)
         self._through = crossing(self._scene().scene, self._protocol.membrane, 1.0).through
-        self._touched = self._was_through = self._over = False
-        self._uncover_at = time.monotonic() + (READY_S if self._interval else self._ramp)
+        self._touched = self._was_through = self._over = self._uncovered = False
 
-    @property
-    def _ramp(self) -> float:
-        """Until the force is whole, s."""
-        return READY_S + float(self._studio.run.loop.limits.ramp_time)
+    def _ready(self) -> bool:
+        """Whether the force is whole and the stimulus has faded in: both grow by ticks, which may be slow."""
+        run = self._studio.run
+        whole = READY_S + float(run.loop.limits.ramp_time)
+        return self._whole >= whole * run.rate and self._faded >= READY_S * run.rate
 
     def _sentence(self) -> str:
         assert self._answers
@@ -179,6 +179,7 @@ class PerceptionSitting:
             self._finish()
             return
         self._say(self._words.wait)
+        self._faded = -math.inf  # until a tick takes the stimulus
         try:
             self._studio.edit(self._scene())
         except (PuncturaError, ValueError) as bad:
@@ -250,19 +251,19 @@ class PerceptionSitting:
     # The activity of the runs.
 
     def begin(self, scene: Scene) -> None:
-        """Nothing is known before the first tick."""
+        self._whole = self._faded = 0.0
 
     def ticks(self, ticks: Ticks, now: float) -> Sequence[BaseModel]:
         self._press(ticks.buttons)
+        self._whole = _since(ticks.state != ServoState.active, self._whole)
+        self._faded = _since(ticks.commands & COMMAND_SCENE != 0, self._faded)
         if self._over:
             return ()
         outside = bool(np.isin(ticks.phase[-1], (int(Phase.outside), ABSENT)).all())
         self._touched |= not outside
         self._was_through |= bool((ticks.depth[:, self._protocol.membrane] >= self._through).any())
-        if self._uncover_at < math.inf and ticks.state[-1] != ServoState.active:
-            self._uncover_at = now + self._ramp
-        elif now >= self._uncover_at:
-            self._uncover_at = math.inf
+        if not self._uncovered and self._ready():
+            self._uncovered = True
             self._say(self._sentence(), covered=not self._protocol.file.picture)
         elif self._touched and not self._was_through and outside:
             self._touched = False
@@ -293,3 +294,9 @@ class PerceptionSitting:
 
     def finish(self) -> Outcome:
         return Outcome()
+
+
+def _since(breaks: npt.NDArray[np.bool_], before: float) -> float:
+    """Ticks since the last break. before: as many as there were before these ticks."""
+    last = np.flatnonzero(breaks)
+    return float(len(breaks) - 1 - last[-1]) if len(last) else before + len(breaks)

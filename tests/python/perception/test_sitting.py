@@ -119,6 +119,20 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         person.reads("1 of 120 trials are done.")
 
 
+def test_the_needle_may_go_in_once_the_ticks_say_that_the_force_is_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a busy computer the ramp and the fade, which grow by ticks, take longer than on the clock."""
+    take = PerceptionSitting.ticks
+    monkeypatch.setattr(PerceptionSitting, "ticks", lambda sitting, ticks, now: take(sitting, ticks, now + 60))
+    with sat(tmp_path, COMPARES) as (person, _):
+        person.reads("The session begins.")
+        person.answers("Go on")
+        person.goes_through("interval 1")
+        person.goes_through("interval 2")
+        person.reads("Which one fell more?")
+
+
 def test_no_consent_no_session(tmp_path: Path) -> None:
     with sat(tmp_path, 'consent = "I agree."\n' + COMPARES) as (person, server):
         person.reads("Do you agree?")
