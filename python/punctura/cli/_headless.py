@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import typer
 
 from punctura._core import Device, FedDevice, Placement, Rival, ServoLoop
-from punctura.cli._notice import notice
+from punctura.cli._out import notice
 from punctura.cli._status import FAILED
 from punctura.cli._streams import give_up_stdout, never_wait_for_stderr
 from punctura.extras import optional

@@ -7,7 +7,7 @@ from typing import Literal
 import typer
 
 from punctura import Needle
-from punctura.cli._notice import notice
+from punctura.cli._out import notice
 from punctura.cli._status import FAILED
 from punctura.defects import PATIENCE_S, explain
 from punctura.files.names import as_text, traces_in

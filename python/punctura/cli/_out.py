@@ -1,4 +1,4 @@
-"""Checks of output files before a computation."""
+"""What a verb writes: lines on standard error, and files, whose places are checked before a computation."""
 
 import os
 from collections.abc import Mapping
@@ -7,6 +7,11 @@ from pathlib import Path
 import typer
 
 from punctura.files.whole_file import target_problems
+
+
+def notice(text: str) -> None:
+    """Prints `punctura: TEXT` on standard error, so that standard output holds only the result."""
+    typer.echo(f"punctura: {text}", err=True)
 
 
 def check_apart(files: Mapping[str, Path | None]) -> None:

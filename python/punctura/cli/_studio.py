@@ -6,7 +6,7 @@ from pathlib import Path
 
 from punctura._core import Placement
 from punctura.cli._headless import USUAL_SCENE, Wishes, begun
-from punctura.cli._notice import notice
+from punctura.cli._out import notice
 from punctura.extras import optional
 from punctura.process.dropping_stream import DroppingStream
 

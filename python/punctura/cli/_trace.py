@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_type_hints
 import typer
 
 from punctura import Needle
-from punctura.cli._notice import notice
+from punctura.cli._out import notice
 
 if TYPE_CHECKING:
     from punctura.trace import Trace

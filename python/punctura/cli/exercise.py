@@ -6,8 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from punctura.cli._notice import notice
-from punctura.cli._out import check_place
+from punctura.cli._out import check_place, notice
 from punctura.cli._status import FAILED
 
 command = typer.Typer(no_args_is_help=True, help="Lists exercises; scores a recording; exports results.")

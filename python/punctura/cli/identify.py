@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from punctura.cli import _rig, _trace
-from punctura.cli._notice import notice
-from punctura.cli._out import check_apart, check_folder, check_place
+from punctura.cli._out import check_apart, check_folder, check_place, notice
 from punctura.cli._status import FAILED
 from punctura.files.whole_file import write_whole
 from punctura.progress import progress_bar

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from punctura.cli._notice import notice
 from punctura.cli._options import LimitsFile, NoBrowser, PlacementFile, Port
-from punctura.cli._out import check_folder
+from punctura.cli._out import check_folder, notice
 from punctura.cli._streams import leave, never_wait_for_stderr
 from punctura.cli._trace import pairs
 from punctura.process.signals import Ended

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from punctura.cli._notice import notice
+from punctura.cli._out import notice
 from punctura.cli._status import FAILED
 from punctura.progress import progress_bar
 

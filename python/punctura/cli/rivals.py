@@ -10,8 +10,7 @@ import typer
 
 from punctura import save_scene
 from punctura.cli import _trace
-from punctura.cli._notice import notice
-from punctura.cli._out import check_apart, check_folder, check_place
+from punctura.cli._out import check_apart, check_folder, check_place, notice
 from punctura.extras import optional
 from punctura.progress import progress_bar
 

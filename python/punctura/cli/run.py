@@ -9,9 +9,8 @@ import typer
 
 from punctura._core import DeviceError
 from punctura.cli._headless import USUAL_SCENE, Wishes, run_headless
-from punctura.cli._options import LimitsFile, NoBrowser, PlacementFile, Port
+from punctura.cli._options import LimitsFile, NoBrowser, PlacementFile, Port, rivals_of
 from punctura.cli._out import check_place
-from punctura.cli._rivals import rivals_of
 from punctura.cli._streams import leave, never_wait_for_stderr
 from punctura.cli._studio import run_page
 from punctura.errors import ConfigurationError

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from punctura.cli._notice import notice
-from punctura.cli._rivals import rivals_of
+from punctura.cli._options import rivals_of
+from punctura.cli._out import notice
 from punctura.progress import progress_bar
 from punctura.simulation import SimulationSummary, simulate
 

@@ -6,10 +6,9 @@ from punctura.extras import optional
 optional("pyarrow", "files", "punctura.compare")  # before the imports below would fail
 
 from punctura.compare.comparison import Band, Comparison, compare
-from punctura.compare.motion import Motion, recorded_motion, stroke
+from punctura.compare.motion import Motion, VaryError, recorded_motion, stroke, vary
 from punctura.compare.run import Run, recorded_run
 from punctura.compare.statistics import Pop, Statistics
-from punctura.compare.vary import VaryError, vary
 
 __all__ = [
     "Band",

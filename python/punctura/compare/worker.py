@@ -16,10 +16,9 @@ from pydantic import BaseModel, Field
 
 from punctura.compare.background import step_back
 from punctura.compare.comparison import Band, Collector, Comparison, Summary
-from punctura.compare.motion import recorded_motion, stroke
+from punctura.compare.motion import recorded_motion, stroke, vary
 from punctura.compare.run import MOST_TICKS, Array, Run, recorded_run
 from punctura.compare.statistics import Statistics
-from punctura.compare.vary import vary
 from punctura.defects import PATIENCE_S, explain
 from punctura.record import Recording
 from punctura.record.header import from_text

@@ -1,16 +1,23 @@
 """The studio's addresses; docs/studio-server.md describes them."""
 
 import asyncio
+import gzip
+import os
 import re
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
+from functools import lru_cache
+from mimetypes import guess_type
 from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
+from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
 from starlette.websockets import WebSocket
 
 from punctura import __version__
@@ -22,11 +29,37 @@ from punctura.studio.connections import Connections
 from punctura.studio.health import limits_of
 from punctura.studio.hub import Hub
 from punctura.studio.live import serve_viewer
-from punctura.studio.page_files import PageFiles
 from punctura.studio.security import PROTOCOL, TOKEN_PART, WITH_TOKEN, Guard
 from punctura.studio.session import Session
 from punctura.studio.wire.messages import PROTOCOL as NUMBER
 from punctura.studio.wire.messages import DevicePart, Hello
+
+_TEXT = (".js", ".css", ".html", ".svg")
+
+
+class PageFiles(StaticFiles):
+    """The files of the page, compressed for a browser that takes it."""
+
+    def file_response(
+        self, full_path: str | os.PathLike[str], stat_result: os.stat_result, scope: Scope, status_code: int = 200
+    ) -> Response:
+        path = Path(full_path)
+        taken = ",".join(Headers(scope=scope).getlist("accept-encoding")).split(",")
+        if "gzip" not in {each.partition(";")[0].strip() for each in taken} or path.suffix not in _TEXT:
+            return super().file_response(full_path, stat_result, scope, status_code)
+        return Response(
+            _compressed(path, stat_result.st_mtime_ns, stat_result.st_size),
+            status_code,
+            {"content-encoding": "gzip", "vary": "accept-encoding"},
+            media_type=guess_type(path.name)[0],
+        )
+
+
+@lru_cache(maxsize=64)
+def _compressed(path: Path, changed_ns: int, size: int) -> bytes:
+    """Once for each version of a file: a stranger who asks again and again costs no more than a copy."""
+    return gzip.compress(path.read_bytes(), 6, mtime=0)
+
 
 _MADE = re.compile(r"index\.html|(fig\d\d|chatter|pop)\.(png|svg|csv)")
 

@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from punctura.compare.comparison import On
-from punctura.compare.vary import MOST_RUNS
+from punctura.compare.motion import MOST_RUNS
 from punctura.compare.worker import Job, LabFailure, LabProgress, Variation
 from punctura.scene import scene_text
 from punctura.studio.computing import Download, LabError, Line, json_of, lines_of, worker

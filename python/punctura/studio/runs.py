@@ -1,22 +1,123 @@
 """One run after another on one device, each with its recording and its activity."""
 
+import queue
+import threading
 from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
 
-from punctura._core import Fault
-from punctura.record import RecorderStatus
+from punctura._core import Fault, ServoLoop
+from punctura.record import Recorder, RecorderStatus
 from punctura.results import JsonObject
 from punctura.studio.activity import Activities, Activity
-from punctura.studio.arming import Arming
 from punctura.studio.followers import no_estimate
 from punctura.studio.hand import Hand, Heard, Pose
 from punctura.studio.health import STILL_OFF, no_recording
-from punctura.studio.jobs import Jobs, Takes
 from punctura.studio.loaded import Loaded
 from punctura.studio.pump import Defects, KeptTicks, Publisher, Pump, no_fault
 from punctura.studio.run import Bench, Run, Settings
 from punctura.studio.shelf import Shelf
 from punctura.studio.view import scene_message
 from punctura.studio.wire.messages import Notice
+
+
+class Arming:
+    """`pause` and `withhold` from any thread; everything else from the worker's."""
+
+    def __init__(self) -> None:
+        self.armed = False
+        self.pauses = 0  # how many were asked for so far
+        self._withheld = False  # until a person turns the force on
+        self._asked_at = 0  # the value of `pauses` when the request came that the worker does now
+        self._lock = threading.Lock()  # held only for a moment, because `pause` waits for it
+
+    def pause(self, loop: Callable[[], ServoLoop]) -> None:
+        """Takes the force away at once. loop: returns the present loop."""
+        with self._lock:
+            self.pauses += 1
+            self._withheld = True
+            loop().pause()
+            self.armed = False
+
+    def withhold(self) -> None:
+        """No run gives force until a person turns it on: after a fault, ceased ticks, or a failed start."""
+        with self._lock:
+            self._withheld = True
+            self.armed = False
+
+    def asked_at(self, pauses: int) -> None:
+        """The worker begins a request that came after so many pauses."""
+        self._asked_at = pauses
+
+    def begin(self, loop: ServoLoop) -> None:
+        """A run begins: it may give force once the tip is outside tissue, unless force is withheld."""
+        with self._lock:
+            self.armed = not self._withheld
+            if self.armed:
+                loop.arm()
+
+    def turn_on(self, loop: ServoLoop) -> None:
+        """A person allows force once the tip is outside tissue. Does nothing if a pause came after this request."""
+        with self._lock:
+            if self._asked_at == self.pauses:
+                self._withheld = False
+                self.armed = True
+                loop.arm()
+
+
+T = TypeVar("T")
+
+
+class Jobs:
+    """`post` and `call` from any thread, `do_next` in the working thread."""
+
+    def __init__(self) -> None:
+        self._waiting: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+
+    def post(self, job: Callable[[], None]) -> None:
+        """Adds a job; nobody waits for its end."""
+        self._waiting.put(job)
+
+    def call(self, job: Callable[[], T]) -> Future[T]:
+        """Adds a job. The future gets its result or its exception."""
+        future: Future[T] = Future()
+
+        def do() -> None:
+            if not future.set_running_or_notify_cancel():
+                return
+            try:
+                future.set_result(job())
+            except Exception as error:
+                future.set_exception(error)
+
+        self._waiting.put(do)
+        return future
+
+    def do_next(self, seconds: float) -> None:
+        """Does one job, if one comes within this time (s)."""
+        try:
+            job = self._waiting.get(timeout=seconds) if seconds > 0 else self._waiting.get_nowait()
+        except queue.Empty:
+            return
+        job()
+
+
+class Takes:
+    """`finish` returns at once; `wait` returns when all are done."""
+
+    def __init__(self) -> None:
+        self._threads: list[threading.Thread] = []
+
+    def finish(self, recorder: Recorder, then: Callable[[RecorderStatus], None]) -> None:
+        """Finishes the recording of a stopped loop in a new thread, which then calls `then`."""
+        thread = threading.Thread(target=lambda: then(recorder.finish()), name="punctura-finish")
+        self._threads = [t for t in self._threads if t.is_alive()] + [thread]
+        thread.start()
+
+    def wait(self) -> None:
+        for thread in self._threads:
+            thread.join()
+
 
 Then = Callable[[str, RecorderStatus], None]  # name of a recording, and how it ended
 

@@ -1,18 +1,22 @@
-"""Runs the trials of a plan in chunks; a later run goes on where an earlier one ended."""
+"""Runs the trials of a plan in chunks; a later run goes on where an earlier one ended. Also runs one trial again."""
 
 import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 
 import pyarrow as pa
 
+from punctura._core import ServoLoop
 from punctura.progress import Progress, reporting
+from punctura.record import Recorder, RecordingError, open_recording
+from punctura.results import JsonObject
+from punctura.scene.build import save_scene
 from punctura.study.cluster import Part, needed_package, on_cluster
 from punctura.study.design import chunk_table, design, row_schema, run_trials
-from punctura.study.folder import Folder, StudyError
+from punctura.study.folder import MARK, Folder, NoSuchRowError, StudyError
 from punctura.study.plan import Plan
 from punctura.study.report import write_report
 
@@ -135,3 +139,53 @@ def _computed(
         return
     for part in parts:
         yield part.number, chunk_table(plan, part.trials, part.begin, threads)
+
+
+def replay_row(plan: Plan, row: int, out: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Runs the trial of a row again and writes row-N.toml and the recording row-N.parquet to the folder `out`.
+
+    The recording holds each tick of the trial; punctura run --recordings FOLDER lists it in the studio. Returns the
+    two paths. Raises StudyError for an unknown row, a lost tick, or files of another plan, RecordingError, OSError.
+    """
+    trials = design(plan)
+    if not 0 <= row < len(trials.seeds):
+        raise NoSuchRowError(f"{plan.path}: there is no row {row}; the rows are 0 to {len(trials.seeds) - 1}")
+    result = run_trials(plan, trials.part(row, row + 1), row, threads=1, duration=0.0)
+    scene, experiment = result.scene(0), result.experiment(0)
+    duration = plan.duration or experiment.duration
+    ticks = len(experiment.run(duration))
+    folder = Path(out)
+    schema = row_schema(plan, trials)
+    Folder(folder).check(schema)
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_path, path = folder / f"row-{row}.toml", folder / f"row-{row}.parquet"
+    about: JsonObject = {"study": plan.path.name, "row": row, "digest": schema.metadata[MARK].decode()}
+    _make_room(path, about)
+    save_scene(scene, scene_path)
+    device = result.device(0, ticks)
+    loop = ServoLoop(device, scene)
+    recorder = Recorder(loop, path, ticks, about)
+    try:
+        loop.arm()
+        loop.start()
+        while not device.finished:
+            sleep(0.005)
+        loop.stop()
+    finally:
+        status = recorder.finish()
+    if status.lost:
+        raise StudyError(f"{path}: the computer was too slow to record {status.lost} of {ticks} ticks; try again")
+    return scene_path, path
+
+
+def _make_room(path: Path, about: JsonObject) -> None:
+    """Deletes the recording of the same row of the same plan. Raises StudyError for any other file."""
+    if not path.exists():
+        return
+    try:
+        found = open_recording(path).info.about
+    except RecordingError:
+        found = {}
+    if {**found, "study": about["study"]} != about:  # the plan's name says nothing about its numbers
+        raise StudyError(f"{path} is no recording of this row of this plan. Give another --out, or move this file away")
+    path.unlink()

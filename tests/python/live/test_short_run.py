@@ -3,7 +3,7 @@
 import punctura as pn
 import pytest
 from punctura.live import SimulatedDevice, run_live
-from punctura.live.short_run import Ticked
+from punctura.live.summary import Ticked
 from punctura.simulation import Target
 
 SCENE = pn.load_scene("k06-fig12")
