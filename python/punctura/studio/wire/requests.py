@@ -205,12 +205,7 @@ NumberedRequest = (
     | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
     | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | TripFault
 )  # fmt: skip
-Request = Annotated[
-    TakeControl | Arm | Pause | Reset | Target | Awake | Took | Strokes | PushPlunger | PlayMotion | Edit | Load
-    | LoadText | Compare | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | TripFault,
-    Field(discriminator="do"),
-]  # fmt: skip
+Request = Annotated[NumberedRequest | Target | Awake | Took, Field(discriminator="do")]
 
 _ADAPTER: TypeAdapter[Request] = TypeAdapter(Request)
 
