@@ -23,6 +23,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from make_contract import messages
 from punctura.exercise import exercise_names, load_exercise
 from punctura.record import open_recording
 from punctura.studio.client import StudioClient
@@ -37,7 +38,6 @@ else:
 
 # A server thread keeps the memory of its largest request, so the memory settles during the first half of a run.
 WARMING_UP, MOST_GROWTH = 0.5, 0.05
-CONTRACT = Path(__file__).resolve().parents[1] / "tests" / "contract" / "messages.json"
 PATHS = (
     "/", "/ws", "/api/recordings", "/api/recordings/small/ticks", "/api/scene.toml", "/assets/", "/api/results/x",
     "/api/lab/file", "/api/lab/identify",
@@ -51,7 +51,7 @@ class Fuzzer(threading.Thread):
         super().__init__(daemon=True)
         self._random = random.Random(seed)
         self._host, self._token = page.host, page.token
-        self._requests = json.loads(CONTRACT.read_text(encoding="utf-8"))
+        self._requests = messages()
         self.ends: Counter[str] = Counter()  # number of connections by the way they ended
         self.sent = 0
         self.stop = False

@@ -1,20 +1,15 @@
-"""Writes tests/contract: wire data that server and page must read in the same way.
+"""Wire data that server and page must read in the same way. Prints the frames, for the page's tests: npm run types.
 
-    python tools/make_contract.py          writes the files
-    python tools/make_contract.py --check  fails if the files are out of date
-
-frames.json: frames of ticks, as base64, with their content (null is NaN). Frames without `holds` must be rejected.
-messages.json: a valid example of each message and request, and invalid requests.
+frames: frames of ticks, as base64, with their content (null is NaN). Frames without `holds` must be rejected.
+messages: a valid example of each message and request, and invalid requests.
 """
 
 import base64
 import json
 import struct
-import sys
 from typing import Any
 
 import numpy as np
-from generated import write
 from punctura.studio.wire.frames import HEAD, NUMBERS, WORDS, encode_ticks
 from punctura.ticks import Ticks
 from punctura.ticks.fields import shape_of
@@ -178,16 +173,5 @@ def messages() -> dict[str, Any]:
     return {"messages": sent, "requests": asked, "refused": refused}
 
 
-def main(argv: list[str] | None = None) -> int:
-    lists = ",\n".join(f'"{name}": {rows(data)}' for name, data in messages().items())
-    texts = {"frames.json": f"{rows(frames())}\n", "messages.json": f"{{{lists}}}\n"}
-    return write(__file__, __doc__, {f"tests/contract/{name}": text for name, text in texts.items()}, argv)
-
-
-def rows(data: list[Any]) -> str:
-    """A JSON list with one entry a line."""
-    return "[\n" + ",\n".join(json.dumps(one, ensure_ascii=False) for one in data) + "\n]"
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    print(json.dumps(frames()))

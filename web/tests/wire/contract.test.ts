@@ -1,10 +1,9 @@
 import { describe, expect, it } from "vitest";
-import frames from "../../../tests/contract/frames.json";
-import contract from "../../../tests/contract/messages.json";
-import type { Message, Request } from "../../src/wire/messages.ts";
 import { decodeTicks, FrameError } from "../../src/wire/ticks.ts";
+import frames from "../controls/support/frames.json";
 
-// What the server's tests read, too: tests/python/studio/test_studio_contract.py.
+// What the server's tests read, too (tests/python/studio/test_studio_contract.py). They check that it has one of each
+// message and request.
 
 type Frame = (typeof frames)[number];
 
@@ -34,28 +33,4 @@ describe("a frame of the contract", () => {
   it.each(bad.map((frame) => [frame.what, frame] as const))("%s, is refused", (_, frame) => {
     expect(() => decodeTicks(bytes(frame))).toThrow(FrameError);
   });
-});
-
-it("has one of each kind of message and request that the page has a type for", () => {
-  const kinds: Record<Message["kind"], true> = {
-    hello: true, scene: true, laws: true, control: true, status: true, fault: true, event: true,
-    estimate: true, recording: true,
-    exercise: true, sitting: true, reply: true, notice: true,
-  }; // biome-ignore format: a table
-  const requests: Record<Request["do"], true> = {
-    take_control: true, arm: true, pause: true, reset: true, target: true,
-    awake: true, took: true, strokes: true,
-    push_plunger: true, play_motion: true, edit: true,
-    load: true, load_text: true, compare: true, estimate: true,
-    start_recording: true, stop_recording: true, start_exercise: true,
-    set_expert: true,
-    check_exercise: true,
-    try_exercise: true,
-    save_exercise: true,
-    open_exercise: true,
-    delete_exercise: true,
-    end_exercise: true, respond: true, trip_fault: true,
-  }; // biome-ignore format: a table
-  expect(contract.messages.map((message) => message.kind).sort()).toEqual(Object.keys(kinds).sort());
-  expect(contract.requests.map((request) => request.do).sort()).toEqual(Object.keys(requests).sort());
 });
