@@ -2,7 +2,7 @@ import "./style.css";
 import { SocketEngine } from "./engine/socket_engine.ts";
 import { layout } from "./layout.ts";
 import { App } from "./state/app.ts";
-import { takeToken } from "./state/token.ts";
+import { takeToken } from "./state/remembered.ts";
 import { Api } from "./wire/api.ts";
 
 const token = takeToken();

@@ -5,7 +5,7 @@ import type { App } from "../state/app.ts";
 import { keptWords } from "../state/source.ts";
 import type { MembraneEvent } from "../wire/messages.ts";
 import { badge } from "./badge.ts";
-import { eventsSince, eventWords, popSentence } from "./event_words.ts";
+import { eventsSince, eventWords, popSentence } from "./words.ts";
 
 const SHOWN = 100;
 

@@ -1,5 +1,5 @@
 import { errorText } from "../format.ts";
-import { tellAwake } from "../hand/awake.ts";
+import { tellAwake } from "../hand/hand.ts";
 import { button, element, keptList, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { backToStage, pageOf } from "../state/page.ts";

@@ -1,10 +1,7 @@
-import type { Hand } from "../hand/hand.ts";
-import { handOf } from "../hand/hand.ts";
-import type { Panel } from "../panel.ts";
-import { element } from "../panel.ts";
+import { type Hand, handOf, LARGEST_TILT_DEG } from "../hand/hand.ts";
+import { element, everyFrame, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { takeControl } from "./control_line.ts";
-import { angleRow } from "./hand/angle.ts";
 import { keyHelp, placeRows } from "./hand/place.ts";
 import { plungerRows } from "./hand/plunger.ts";
 import { scriptRows } from "./hand/scripts.ts";
@@ -31,4 +28,40 @@ function whyBarred(app: App, hand: Hand): HTMLElement {
     box.classList.toggle("barred", why !== null);
   });
   return box;
+}
+
+/** A slider for the angle between the needle and the first membrane's normal. */
+function angleRow(hand: Hand): HTMLElement {
+  const slider = element("input", {
+    type: "range",
+    id: "hand-angle",
+    min: -LARGEST_TILT_DEG,
+    max: LARGEST_TILT_DEG,
+    step: 1,
+    value: 0,
+  });
+  const figure = element("output", { class: "figure", for: "hand-angle" }, "–°");
+  let shown: number | null = null;
+  const show = (): void => {
+    if (!hand.pose()) return; // no tick has arrived yet
+    const degrees = Math.round((hand.tilt() * 180) / Math.PI);
+    if (degrees === shown && slider.value === String(degrees)) return;
+    shown = degrees;
+    slider.value = String(degrees);
+    figure.textContent = `${degrees}°`;
+    slider.setAttribute("aria-valuetext", `${degrees} degrees from upright, ${90 - Math.abs(degrees)} to the skin`);
+    figure.title = `${90 - Math.abs(degrees)}° to the skin`;
+  };
+  slider.addEventListener("input", () => {
+    hand.setTilt((Number(slider.value) * Math.PI) / 180);
+    show();
+  });
+  // An exercise, strokes or another page can tilt the needle too.
+  everyFrame(show);
+  return element(
+    "section",
+    { class: "rows" },
+    element("h3", {}, element("label", { for: "hand-angle" }, "Angle, from upright")),
+    element("div", { class: "row" }, slider, figure),
+  );
 }

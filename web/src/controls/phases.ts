@@ -4,7 +4,7 @@ import { plotsOf } from "../plots/shared.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { badge } from "./badge.ts";
 import { eventList } from "./events.ts";
-import { phaseWords } from "./phase_words.ts";
+import { phaseWords } from "./words.ts";
 
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
 

@@ -3,7 +3,7 @@ import type { App } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
 import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
-import { TURN_ON, waitingFor } from "./fault_steps.ts";
+import { TURN_ON, waitingFor } from "./fault_banner.ts";
 import { CUT, STATES } from "./words.ts";
 
 const FAULTED = codeOf("state", "faulted");

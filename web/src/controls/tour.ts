@@ -3,7 +3,7 @@ import { element, everyFrame, type Panel } from "../panel.ts";
 import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
 import { remember, remembered } from "../state/remembered.ts";
-import { askSound } from "./hand/ask_sound.ts";
+import { askSound } from "./hand/sound.ts";
 import { Progress, TASKS } from "./tour/progress.ts";
 import { instruction, NAMES } from "./tour/words.ts";
 

@@ -1,4 +1,8 @@
 import type { Connection } from "../engine/engine.ts";
+import type { History } from "../state/history.ts";
+import { dropText, fallenForce } from "../state/scale.ts";
+import type { MembraneEvent } from "../wire/messages.ts";
+import { type Phase, wordsOf } from "../wire/ticks.ts";
 
 /** The displayed texts of the servo states, by their numbers. The mark tells them apart without colour. */
 export const STATES: readonly {
@@ -34,4 +38,67 @@ export function connectionWords(now: Connection, silent: boolean, leftMs: number
     case "refused":
       return studio ? `Refused: ${now.reason}` : `Cannot run: ${now.reason}`;
   }
+}
+
+/** The displayed kinds of a membrane's phase. */
+type PhaseKind = "outside" | "sticking" | "in" | "out" | "through" | "barred";
+
+export interface PhaseWords {
+  readonly kind: PhaseKind;
+  /** Tells the phases apart without colour. */
+  readonly symbol: string;
+  readonly word: string;
+  /** The needle's motion while it is through; else "". */
+  readonly detail: string;
+}
+
+const PHASES = wordsOf("phase");
+const WORDS: Readonly<Record<Phase, PhaseWords>> = {
+  outside: { kind: "outside", symbol: "○", word: "outside", detail: "" },
+  sticking: { kind: "sticking", symbol: "■", word: "sticking", detail: "" },
+  sliding_in: { kind: "in", symbol: "▼", word: "sliding in", detail: "" },
+  sliding_out: { kind: "out", symbol: "▲", word: "sliding out", detail: "" },
+  barred: { kind: "barred", symbol: "✕", word: "barred", detail: "" },
+};
+
+const DETAILS: Partial<Record<Phase, string>> = {
+  sticking: "at rest",
+  sliding_in: "going in",
+  sliding_out: "coming out",
+};
+
+/** The words for a phase's number. A tip inside the membrane and at least `through` deep (m) has passed through it. */
+export function phaseWords(phase: number, depth: number, through: number): PhaseWords {
+  const name = PHASES[phase] ?? "outside";
+  const words = WORDS[name];
+  if (name === "outside" || name === "barred" || !(depth >= through)) return words;
+  return { kind: "through", symbol: "◆", word: "through", detail: DETAILS[name] ?? "" };
+}
+
+/** The words of an event in the list, and for a pop the drop of the force. history: of the event's run. */
+export function eventWords(event: MembraneEvent, history: History): { readonly word: string; readonly force: string } {
+  switch (event.what) {
+    case "touch":
+      return { word: "contact", force: "" };
+    case "pop":
+      return { word: "pop", force: dropText(history, event) };
+    case "out":
+      return { word: "out", force: "" };
+  }
+}
+
+/** A pop as a sentence for a screen reader. */
+export const popSentence = (event: MembraneEvent, history: History): string =>
+  `Pop through ${event.name}: the ${fallenForce(history, event.tick)} fell by ` +
+  `${Math.abs(event.drop).toFixed(2)} newtons.`;
+
+/** The events of `now` after the last of `before`; null if `now` is a different list. */
+export function eventsSince(
+  before: readonly MembraneEvent[],
+  now: readonly MembraneEvent[],
+): readonly MembraneEvent[] | null {
+  const last = before.at(-1);
+  if (!last) return now;
+  const at = now.lastIndexOf(last);
+  return at < 0 ? null : now.slice(at + 1);
 }

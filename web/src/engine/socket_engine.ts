@@ -1,10 +1,9 @@
 import { errorText } from "../format.ts";
 import { Api, ApiError, type Fetch } from "../wire/api.ts";
 import { framesOf } from "../wire/length_prefixed.ts";
-import { parseMessage } from "../wire/parse.ts";
+import type { Message } from "../wire/messages.ts";
 import { decodeTicks, type TickBatch } from "../wire/ticks.ts";
-import type { Ask, Engine, EngineListener, Reply, Triple } from "./engine.ts";
-import { Pending } from "./pending.ts";
+import { type Ask, type Engine, type EngineListener, Pending, type Reply, type Triple } from "./engine.ts";
 
 const PROTOCOL = "punctura.v1";
 /** A browser hides why a socket was refused; this address gives the same refusal with its reason. */
@@ -197,4 +196,38 @@ const LARGEST_MS = 8000;
 function waitBefore(attempt: number, chance: () => number = Math.random): number {
   const wait = Math.min(LARGEST_MS, FIRST_MS * 2 ** (attempt - 1));
   return Math.round(wait * (0.8 + 0.4 * chance()));
+}
+
+const KINDS: Readonly<Record<Message["kind"], true>> = {
+  hello: true,
+  scene: true,
+  laws: true,
+  control: true,
+  status: true,
+  fault: true,
+  event: true,
+  estimate: true,
+  recording: true,
+  exercise: true,
+  sitting: true,
+  reply: true,
+  notice: true,
+};
+
+/**
+ * Parses a message of the server. Returns a sentence if it is invalid. Only the kind is checked: the server defines
+ * the types.
+ */
+function parseMessage(text: string): Message | string {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return "a message that is no JSON";
+  }
+  if (typeof value !== "object" || value === null || !("kind" in value)) return "a message without a kind";
+  if (typeof value.kind !== "string" || !Object.hasOwn(KINDS, value.kind)) {
+    return `a message of an unknown kind, ${JSON.stringify(value.kind)}`;
+  }
+  return value as Message;
 }

@@ -1,4 +1,5 @@
 import type { Triple } from "../engine/engine.ts";
+import { everyFrame } from "../panel.ts";
 import { type App, onePerApp } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
 import { Signal } from "../state/signal.ts";
@@ -189,4 +190,20 @@ function aiming(scene: SceneView, axis: Triple, height: number): Triple {
   const half = Math.max(...depths) / 2;
   const slope = Math.max(0.1, dot(axis, normal));
   return add(add(first.point, scaled(normal, half)), scaled(axis, -(half + height) / slope));
+}
+
+const EVERY_MS = 100;
+
+/**
+ * Tells the studio in each frame, ten times a second at most, that this page can move the hand of a running exercise. A
+ * page that stalls is silent, so its needle that stands still is no pause of the student.
+ */
+export function tellAwake(app: App): void {
+  let last = Number.NEGATIVE_INFINITY;
+  everyFrame((now) => {
+    const moves = app.control.value.you && app.hello.value?.device.simulated;
+    if (!moves || !app.exercise.value?.running || now - last < EVERY_MS) return;
+    last = now;
+    app.engine.awake?.();
+  });
 }

@@ -3,18 +3,17 @@ import { turns } from "../frames.ts";
 import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { feltForce, feltShare, MODEL_FORCE, scaleOf } from "../state/scale.ts";
 import { hiddenOf } from "./curves.ts";
-import { difference } from "./difference.ts";
 import { ForceDepthDrawing, forceDepthCurves } from "./force_depth_drawing.ts";
 import type { Area, ForceDepthPicture } from "./force_depth_picture.ts";
+import { difference } from "./gather.ts";
 import { keyTick } from "./keys.ts";
 import { legend } from "./kit/legend.ts";
 import { type Box, Surface } from "./kit/surface.ts";
 import { type Theme, watchTheme } from "./kit/theme.ts";
 import { nameOf } from "./names.ts";
 import { reading } from "./reading.ts";
-import { scaleChip } from "./scale_chip.ts";
 import { plotsOf } from "./shared.ts";
-import { choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
+import { choice, menu, pauseButton, saveMenu, scaleChip } from "./toolbar.ts";
 
 const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
 const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance

@@ -1,7 +1,7 @@
 import { drawnMembranes, endOf, type ForceDepthPicture, meanBands, overlaidMembranes } from "./force_depth_picture.ts";
 import { Extent, gatherOther, isCompared } from "./gather.ts";
-import { AutoRange } from "./kit/auto_range.ts";
 import type { Pane } from "./kit/axes.ts";
+import { AutoRange } from "./kit/scale.ts";
 
 const MM = 1e3;
 const OUTSIDE = 0.35; // length of the axis before the surface, as a share of its length behind it

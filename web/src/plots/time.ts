@@ -8,13 +8,11 @@ import { Surface } from "./kit/surface.ts";
 import { type Theme, watchTheme } from "./kit/theme.ts";
 import { popCallout } from "./pop_callout.ts";
 import { reading } from "./reading.ts";
-import { scaleChip } from "./scale_chip.ts";
-import { Scrolled } from "./scrolled.ts";
 import { plotsOf, SPANS, type Span } from "./shared.ts";
 import { TimeDrawing, timeCurves } from "./time_drawing.ts";
 import type { TimePicture } from "./time_picture.ts";
-import { choice, menu, pauseButton, saveMenu } from "./toolbar.ts";
-import { nearestTick } from "./window.ts";
+import { choice, menu, pauseButton, saveMenu, scaleChip } from "./toolbar.ts";
+import { nearestTick, Scrolled } from "./window.ts";
 
 const TAIL = 800; // ticks without states, limits and marks in the background, at most
 

@@ -1,6 +1,8 @@
-import { button, element } from "../panel.ts";
+import { button, element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
+import { feltForce, scaleOf, scaleText } from "../state/scale.ts";
 import { type Saving, save } from "./save.ts";
+import type { Plots } from "./shared.ts";
 
 /** A drop-down list whose entries can change. */
 export function choice(
@@ -58,4 +60,19 @@ export function menu(word: string, title: string, content: HTMLElement): HTMLDet
   menu.addEventListener("focusout", (event) => leave(event.relatedTarget));
   document.addEventListener("pointerdown", (event) => leave(event.target));
   return menu;
+}
+
+/** Tells how much of the model's force the device gives; hidden if that is all of it. */
+export function scaleChip(plots: Plots): HTMLElement {
+  const chip = element("span", { class: "force-scale", hidden: true });
+  let shown = 1;
+  everyFrame(() => {
+    const scale = scaleOf(plots.source);
+    if (scale === shown) return;
+    shown = scale;
+    chip.hidden = scale === 1;
+    chip.textContent = feltForce(scale);
+    chip.title = `This device gives ${scaleText(scale)} of the model force`;
+  });
+  return chip;
 }

@@ -3,8 +3,7 @@ import type { Dents } from "./dents.ts";
 import type { Tissue } from "./layers.ts";
 import type { NeedleSpan } from "./needle_span.ts";
 import { ACROSS, ACROSS_PER_MM, DEEP, DEEP_PER_MM, speckle } from "./speckle.ts";
-import { directed, strataOf } from "./strata.ts";
-import { TEXTURES } from "./textures.ts";
+import { directed, strataOf, TEXTURES } from "./strata.ts";
 
 const FADE = 46; // loss of brightness from the skin to the bottom
 const FAR = 30; // square of a distance, in widths of the dent, at which nothing is displaced

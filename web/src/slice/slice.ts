@@ -1,14 +1,16 @@
 import type { Vector3 } from "three";
+import { mm } from "../format.ts";
 import { element, everyFrame } from "../panel.ts";
 import { DepthScale, framingOf } from "../scene/framing.ts";
 import { Moment } from "../scene/moment.ts";
 import { type Probe, placeAtNeedle, planeOf, type SkinFrame, skinFrame } from "../scene/probe.ts";
 import type { App } from "../state/app.ts";
 import type { SceneView } from "../wire/messages.ts";
-import { PROBE_KEYS, probeButtons, probeDrag, probeKeys, probeSliders } from "./controls.ts";
+import { PROBE_KEYS, probeButtons, probeDrag, probeKeys, probeSliders, Quality } from "./controls.ts";
+import { type Dents, displaced } from "./dents.ts";
 import { Drawing, type Shown } from "./drawing.ts";
-import { Quality } from "./quality.ts";
-import { pictureWords } from "./words.ts";
+import type { Tissue } from "./layers.ts";
+import type { NeedleSpan } from "./needle_span.ts";
 
 const MARK = "Drawing, not a simulation of an ultrasound instrument";
 const AHEAD = 0.2; // of the picture's depth: the tissue that the needle goes to is in the picture
@@ -117,4 +119,28 @@ function samePicture(
   { width, depth }: { width: number; depth: number },
 ): { width: number; depth: number } {
   return before && before.width === width && before.depth === depth ? before : { width, depth };
+}
+
+/** The picture in words. */
+function pictureWords(span: NeedleSpan | null, tissue: Tissue, dents: Dents): string {
+  const words = [needleWords(span)];
+  if (tissue.vessel) words.push(`The vein is ${mm(lumenHeight(tissue, dents) / 1000, 1)} high at the needle.`);
+  if (dents.most > 0.2) words.push(`The needle displaces the tissue by ${mm(dents.most / 1000, 1)}.`);
+  return words.join(" ");
+}
+
+function needleWords(span: NeedleSpan | null): string {
+  if (!span) return "The needle is not in this slice.";
+  const { deep, shallow, tip, along } = span;
+  const where = `${mm(deep.depth / 1000, 1)} deep`;
+  if (tip) return `The needle ${along ? "lies in" : "crosses"} the slice: the tip is ${where}.`;
+  if (along) return `The shaft lies in the slice down to ${mm(deep.depth / 1000, 1)}; the tip does not.`;
+  return `The shaft crosses the slice ${mm((deep.depth + shallow.depth) / 2000, 1)} deep.`;
+}
+
+/** Height of the lumen on the needle's line, mm. */
+export function lumenHeight({ vessel }: Tissue, dents: Dents): number {
+  if (!vessel) return 0;
+  const { depth, radius } = vessel;
+  return Math.max(0, displaced(depth + radius, dents) - displaced(depth - radius, dents));
 }

@@ -1,8 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
-import { nextStep, waitingFor } from "../../src/controls/fault_steps.ts";
+import { inTissue, nextStep, waitingFor } from "../../src/controls/fault_banner.ts";
 import { type Ask, DONE, type Engine, type EngineListener } from "../../src/engine/engine.ts";
 import { App } from "../../src/state/app.ts";
-import { inTissue } from "../../src/state/tissue.ts";
 import type { Hello, Message, SceneView, Status } from "../../src/wire/messages.ts";
 import { batch } from "../support/fill_history.ts";
 import { LIMITS } from "../support/limits.ts";

@@ -1,7 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { duration } from "../../src/controls/health.ts";
-import { drawHistogram } from "../../src/controls/histogram.ts";
-import { RateMeter } from "../../src/controls/rate.ts";
+import { drawHistogram, duration, RateMeter } from "../../src/controls/health.ts";
 import { SvgPen } from "../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../src/plots/kit/theme.ts";
 import type { Spread } from "../../src/wire/messages.ts";

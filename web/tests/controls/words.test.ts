@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { eventsSince, eventWords, popSentence } from "../../src/controls/event_words.ts";
-import { phaseWords } from "../../src/controls/phase_words.ts";
+import { eventsSince, eventWords, phaseWords, popSentence } from "../../src/controls/words.ts";
 import type { MembraneEvent } from "../../src/wire/messages.ts";
 import { history } from "../support/fill_history.ts";
 

@@ -1,5 +1,5 @@
 import { afterEach, expect, it, vi } from "vitest";
-import { tellAwake } from "../../src/hand/awake.ts";
+import { tellAwake } from "../../src/hand/hand.ts";
 import type { App } from "../../src/state/app.ts";
 
 afterEach(() => vi.unstubAllGlobals());

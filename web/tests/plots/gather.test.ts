@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { difference } from "../../src/plots/difference.ts";
-import { Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "../../src/plots/gather.ts";
+import { difference, Extent, gather, gatherOther, gatherSize, gatherTime, isCompared } from "../../src/plots/gather.ts";
 import { eachState } from "../../src/plots/states.ts";
 import { frozenCopy } from "../../src/state/frozen.ts";
 import { Source } from "../../src/state/source.ts";

@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { Scrolled } from "../../src/plots/scrolled.ts";
-import { Window } from "../../src/plots/window.ts";
+import { Scrolled, Window } from "../../src/plots/window.ts";
 
 const PER_SECOND = 30; // px
 

@@ -1,8 +1,7 @@
 import { expect, it } from "vitest";
 import { wrapped } from "../../src/scene/probe.ts";
-import { moved } from "../../src/slice/controls.ts";
-import { Quality } from "../../src/slice/quality.ts";
-import { frameOf, rasterOf, rulerMarks } from "../../src/slice/raster.ts";
+import { moved, Quality } from "../../src/slice/controls.ts";
+import { frameOf, rasterOf, rulerMarks } from "../../src/slice/drawing.ts";
 
 it("the probe moves in its own directions, and stays within reach", () => {
   const turned = moved({ x: 0, z: 0, turn: Math.PI / 2 }, 2, 0);

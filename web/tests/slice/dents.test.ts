@@ -4,7 +4,7 @@ import { Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import { skinFrame } from "../../src/scene/probe.ts";
 import { Denter, type Dents, displaced } from "../../src/slice/dents.ts";
 import { tissueOf } from "../../src/slice/layers.ts";
-import { lumenHeight } from "../../src/slice/words.ts";
+import { lumenHeight } from "../../src/slice/slice.ts";
 import { plainScene } from "../support/plain_scene.ts";
 
 const SLIDING_IN = 2;

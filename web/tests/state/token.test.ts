@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { takeToken } from "../../src/state/token.ts";
+import { takeToken } from "../../src/state/remembered.ts";
 
 const ADDRESS = "http://127.0.0.1:8765/?a=1&token=s3cret#part";
 

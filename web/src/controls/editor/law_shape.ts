@@ -1,8 +1,8 @@
 import { drawBand } from "../../plots/band.ts";
-import { AutoRange } from "../../plots/kit/auto_range.ts";
 import { drawAxes, MARGIN, Pane } from "../../plots/kit/axes.ts";
 import type { Pen, Stroke } from "../../plots/kit/pen.ts";
 import { Polyline } from "../../plots/kit/polyline.ts";
+import { AutoRange } from "../../plots/kit/scale.ts";
 import { colourOf, type Theme } from "../../plots/kit/theme.ts";
 import type { LawCurve } from "../../wire/messages.ts";
 

@@ -1,5 +1,4 @@
 import type { Api } from "../../wire/api.ts";
-import { jsonLines } from "../../wire/lines.ts";
 import type { LabComparison, LabLine } from "../../wire/messages.ts";
 
 /** What to compare: recordings by name, or a parameter of the present scene through a list of values. SI. */
@@ -43,3 +42,19 @@ export async function compute(
 
 /** Address of the zip file with figure, data, scenes and how to cite them. */
 export const bundlePath = (job: Job, on: "depth" | "time"): string => `/api/lab/bundle?${queryOf(job)}&on=${on}`;
+
+/** Yields the JSON values of a body that has one in each line, as they come. */
+export async function* jsonLines<T>(body: ReadableStream<Uint8Array>): AsyncGenerator<T> {
+  const reader = body.getReader();
+  const decoder = new TextDecoder();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    rest += decoder.decode(value, { stream: !done });
+    const lines = rest.split("\n");
+    rest = lines.pop()!;
+    for (const line of lines) if (line) yield JSON.parse(line) as T;
+    if (done) break;
+  }
+  if (rest.trim()) yield JSON.parse(rest) as T;
+}

@@ -1,4 +1,5 @@
-import type { Control } from "../../wire/messages.ts";
+import type { Control, Message } from "../../wire/messages.ts";
+import type { Ask, Reply, Triple } from "../engine.ts";
 
 /** The types of the npm package in integrations/wasm. The static page loads the package itself at run time. */
 export type { LiveRun, Punctura } from "punctura";
@@ -20,3 +21,17 @@ export type Tables = Readonly<Record<string, unknown>>;
 
 /** This page is the only one, so it always has control. */
 export const IN_CONTROL: Control = { kind: "control", holder: 1, you: true, hand: null };
+
+/** From the page to the worker. */
+export type ToWorker =
+  | { readonly start: string }
+  | { readonly id: number; readonly ask: Ask }
+  | { readonly run: number; readonly position: Triple; readonly axis: Triple; readonly buttons: number }
+  | { readonly visible: boolean };
+
+/** From the worker to the page. `failed`: why nothing can run. */
+export type FromWorker =
+  | { readonly message: Message }
+  | { readonly reply: Reply }
+  | { readonly frame: ArrayBuffer }
+  | { readonly failed: string };

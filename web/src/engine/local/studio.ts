@@ -5,9 +5,8 @@ import { type Answer, type Ask, DONE, type Reply, type Triple } from "../engine.
 import { BlockClock } from "./clock.ts";
 import { IN_CONTROL, type LiveRun, type Punctura, type StudioData, type Tables } from "./core.ts";
 import { withDefaults } from "./defaults.ts";
-import { statusOf } from "./status.ts";
-import { tomlOf } from "./toml.ts";
-import { EXERCISE_FILE, NEEDS_STUDIO } from "./words.ts";
+import { tomlOf } from "./files.ts";
+import { EXERCISE_FILE, NEEDS_STUDIO, statusOf } from "./status.ts";
 
 const THUMB_MS = 1000; // a page that still pushes the plunger says so more often
 const NO_FAULT = codeOf("fault", "none");

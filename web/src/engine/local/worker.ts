@@ -1,7 +1,6 @@
 import { errorText } from "../../format.ts";
 import { DONE } from "../engine.ts";
-import type { Punctura, StudioData, Tables } from "./core.ts";
-import type { FromWorker, ToWorker } from "./mail.ts";
+import type { FromWorker, Punctura, StudioData, Tables, ToWorker } from "./core.ts";
 import { LocalStudio } from "./studio.ts";
 
 // The worker of the static page: the core in WebAssembly, on a clock of its own.

@@ -1,7 +1,6 @@
 import { decodeTicks } from "../../wire/ticks.ts";
-import type { Ask, Engine, EngineListener, Reply, Triple } from "../engine.ts";
-import { Pending } from "../pending.ts";
-import type { FromWorker, ToWorker } from "./mail.ts";
+import { type Ask, type Engine, type EngineListener, Pending, type Reply, type Triple } from "../engine.ts";
+import type { FromWorker, ToWorker } from "./core.ts";
 
 /** The part of a Worker that the engine uses; tests replace it. */
 export interface WorkerPort {

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { sceneForm } from "../../../src/controls/editor/fields.ts";
-import { converted } from "../../../src/controls/editor/pair_units.ts";
+import { converted } from "../../../src/controls/editor/pair_field.ts";
 import schema from "../support/schema.json";
 
 const needle = sceneForm(schema).tables[0]!;

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { LastWins } from "../../../src/controls/editor/sender.ts";
+import { LastWins } from "../../../src/controls/editor/draft.ts";
 
 test("only one request is pending at a time, and the newest waiting value is next", async () => {
   const sent: number[] = [];

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import { withDefaults } from "../../../src/engine/local/defaults.ts";
-import { tomlOf } from "../../../src/engine/local/toml.ts";
+import { tomlOf } from "../../../src/engine/local/files.ts";
 
 it("writes tables as the text of a scene file", () => {
   const tables = {

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import { type Connection, DONE } from "../../../src/engine/engine.ts";
-import type { FromWorker, ToWorker } from "../../../src/engine/local/mail.ts";
+import type { FromWorker, ToWorker } from "../../../src/engine/local/core.ts";
 import { WorkerEngine, type WorkerPort } from "../../../src/engine/local/worker_engine.ts";
 import type { Message } from "../../../src/wire/messages.ts";
 import type { TickBatch } from "../../../src/wire/ticks.ts";

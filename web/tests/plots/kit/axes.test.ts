@@ -1,8 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { AutoRange } from "../../../src/plots/kit/auto_range.ts";
 import { drawAxes, Pane } from "../../../src/plots/kit/axes.ts";
 import { textWidth } from "../../../src/plots/kit/labels.ts";
-import { label, niceStep, Scale, ticks } from "../../../src/plots/kit/scale.ts";
+import { AutoRange, label, niceStep, Scale, ticks } from "../../../src/plots/kit/scale.ts";
 import { SvgPen } from "../../../src/plots/kit/svg_pen.ts";
 import { CSS_THEME } from "../../../src/plots/kit/theme.ts";
 

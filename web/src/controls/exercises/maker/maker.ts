@@ -4,8 +4,18 @@ import type { App } from "../../../state/app.ts";
 import type { SceneOutline } from "../../../wire/messages.ts";
 import { sentence, words } from "../../editor/problems.ts";
 import type { Person } from "../person.ts";
-import { changed, type Draft, draftOf, type FieldName, fieldOf, nameOf, tablesOf } from "./draft.ts";
-import { type ExerciseSchema, type GoalField, goalFields } from "./goals.ts";
+import {
+  changed,
+  type Draft,
+  draftOf,
+  type ExerciseSchema,
+  type FieldName,
+  fieldOf,
+  type GoalField,
+  goalFields,
+  nameOf,
+  tablesOf,
+} from "./draft.ts";
 import { DepthStrip } from "./strip.ts";
 
 const PLACES = ["from", "to", "angle", "wholeTip"] as const; // have their meaning in one scene only

@@ -2,8 +2,41 @@ import { button, element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
 import type { FileLine, RolePart } from "../../../wire/messages.ts";
 import { answersOf, columnWords, isComplaints, needleWords, sceneNeedle, statedUnit } from "./asked.ts";
-import { type Field, field } from "./field.ts";
 import type { Answers } from "./job.ts";
+
+/** A row of the form: a label, its controls, and a line for what is wrong. */
+interface Field {
+  readonly root: HTMLElement;
+  /** Marks a control and shows what is wrong with it; an empty text removes that. */
+  complain(text: string, control?: HTMLElement): void;
+}
+
+let fields = 0;
+
+/** The first control gets the label. */
+function field(label: string, ...controls: readonly HTMLElement[]): Field {
+  const id = `trace-field-${fields++}`;
+  const error = element("p", { id: `${id}-error`, class: "error", role: "alert" });
+  const [first] = controls;
+  first?.setAttribute("id", id);
+  for (const control of controls) control.setAttribute("aria-describedby", `${id}-error`);
+  return {
+    root: element(
+      "div",
+      { class: "trace-field" },
+      element("label", { for: id }, label),
+      element("div", { class: "trace-controls" }, ...controls),
+      error,
+    ),
+    complain: (text, control = first) => {
+      error.textContent = text;
+      for (const one of controls) {
+        if (text && one === control) one.setAttribute("aria-invalid", "true");
+        else one.removeAttribute("aria-invalid");
+      }
+    },
+  };
+}
 
 const MOST_MEMBRANES = 6; // that are offered
 

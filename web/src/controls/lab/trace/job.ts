@@ -1,6 +1,6 @@
 import { type Api, ApiError } from "../../../wire/api.ts";
-import { jsonLines } from "../../../wire/lines.ts";
 import type { FileLine, IdentifyLine, TraceLine } from "../../../wire/messages.ts";
+import { jsonLines } from "../job.ts";
 
 export const LARGEST = 32e6; // bytes of a file; the studio takes no more
 

@@ -4,10 +4,10 @@ import {
   type Draft,
   draftOf,
   fieldOf,
+  goalFields,
   nameOf,
   tablesOf,
 } from "../../../../src/controls/exercises/maker/draft.ts";
-import { goalFields } from "../../../../src/controls/exercises/maker/goals.ts";
 import type { SceneOutline } from "../../../../src/wire/messages.ts";
 
 const membrane = (name: string, depth: number, thickness: number) => ({
