@@ -182,7 +182,7 @@ def attempt(page: Page, hand: Keys, slower: int) -> str:
             most, falls = float(force[0]) if fell else max(most, float(force[0])), falls + fell
         if dialog.count():
             return dialog.inner_text()
-        holds = "Hold still" in words or ("second pop" in asked and falls == 2)
+        holds = "Hold still" in words or "let it go" in words or ("second pop" in asked and falls == 2)
         if "plunger" in asked and not done and (holds if pushing else "ligament" in spoken.inner_text()):
             pushing, done = not pushing, pushing
             hand.thumb(pushing)

@@ -148,6 +148,17 @@ def test_a_mouse_that_holds_the_plunger_moves_the_needle_with_its_wheel(shown: P
     expect(force.first).to_have_text(re.compile(r"^0[.][0-4]"))
 
 
+def test_the_stage_tells_how_much_has_left_the_syringe(shown: Page) -> None:
+    shown.get_by_role("button", name="Stage").click()
+    injected = shown.get_by_text("mL injected")
+    expect(injected).to_have_text(re.compile(r"^[0-2][.]\d mL"))
+    before = injected.inner_text()
+    view(shown).focus()
+    shown.keyboard.down(" ")
+    expect(injected).not_to_have_text(before)
+    shown.keyboard.up(" ")
+
+
 def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_path: Path) -> None:
     second = ["--second-device", "simulated"]
     with StudioProcess(tmp_path, "epidural", more=second) as studio, opened(browser, studio.url) as page:

@@ -61,6 +61,18 @@ def test_a_thumb_that_pushes_on_fails_and_is_told_its_force_and_the_volume():
     assert remark.numbers["injected_m3"] > remark.numbers["allowed_m3"] == 2e-6
 
 
+def test_while_the_plunger_gives_way_the_instruction_is_to_let_it_go_until_the_thumb_rests():
+    columns = pushed(lets_go=SLOWLY, draws=0.1)
+    (gave,) = judged(load_exercise(NAME), columns).finish().metrics.yields
+
+    def told(seconds):
+        until = int(np.searchsorted(columns["time"], gave.time + seconds))
+        return judged(load_exercise(NAME), {k: v[:until] for k, v in columns.items()}).status.instruction
+
+    assert told(0.1) == "The plunger gives way: let it go, and stop."
+    assert not any("let it go" in told(seconds) for seconds in (-0.1, 0.5))
+
+
 def test_a_thumb_that_rests_does_not_pass_and_is_told_to_go_back_and_push():
     attempt = attempted(newtons=0.0)
     assert not attempt.over

@@ -1,8 +1,11 @@
 import { type App, onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 
-/** N, of a thumb that pushes by a key or a button. Illustrative. */
-export const FIRM = 4;
+/**
+ * N, of a thumb that pushes by a key or a button. Illustrative: where the ready epidural gives way, 2 mL have left the
+ * syringe after some 0.8 s, so that somebody who sees it can let go in time.
+ */
+export const FIRM = 3;
 const REPEAT_MS = 400; // the server lets go after 1 s of silence
 const STEP = 0.1; // N; smaller changes of a trigger are not sent
 const MS_PER_WHEEL_PIXEL = 2.5; // a notch has about 100 pixels, so four notches a second are a steady push

@@ -1,9 +1,10 @@
-import { newton } from "../format.ts";
+import { fixedNumber, newton } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import { type DepthScale, type Free, framingOf } from "../scene/framing.ts";
 import type { App } from "../state/app.ts";
+import type { History } from "../state/history.ts";
 import { pageOf, show } from "../state/page.ts";
 import { feltDropText, feltForce, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
@@ -26,6 +27,7 @@ export const stage: Panel = (root, app) => {
   const words = element("p", { class: "stage-sentence", role: "status" });
   const force = element("output", { class: "stage-number" });
   const name = element("span", { class: "stage-name" });
+  const syringe = element("span", { class: "stage-name" });
   const free = element("div", { class: "stage-free", "aria-hidden": "true" });
   const curve = new CurvePicture();
   const hold = button("Pause", "The picture stands still; the run goes on", () => {
@@ -50,7 +52,7 @@ export const stage: Panel = (root, app) => {
     { class: "stage", "aria-label": "Stage" },
     element("h1", { class: "only-read" }, "Punctura"),
     words,
-    element("div", { class: "stage-force" }, force, name),
+    element("div", { class: "stage-force" }, force, name, syringe),
     free,
     curve.root,
     buttons,
@@ -122,6 +124,8 @@ export const stage: Panel = (root, app) => {
     write(words, sentence.words(bands, hidden ? null : now));
     write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
     write(name, tick === null ? "" : feltForce(scaleOf(source.value)));
+    const told = built?.syringe && tick !== null && !app.blind;
+    write(syringe, told ? injectedText(source.value.history, tick) : "");
   });
 };
 
@@ -129,6 +133,10 @@ export const stage: Panel = (root, app) => {
 function write(host: HTMLElement, text: string): void {
   if (host.textContent !== text) host.textContent = text;
 }
+
+/** What has left the syringe. */
+const injectedText = (history: History, tick: number): string =>
+  `${fixedNumber((history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 1)} mL injected`;
 
 /** The place of one element in another, as shares of its size. */
 function shareOf(part: HTMLElement, whole: HTMLElement): Free | null {

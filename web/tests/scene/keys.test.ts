@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type { Hand } from "../../src/hand/hand.ts";
-import type { Thumb } from "../../src/hand/thumb.ts";
+import { FIRM, type Thumb } from "../../src/hand/thumb.ts";
 import type { OrbitCamera } from "../../src/scene/camera.ts";
 import { viewKeys } from "../../src/scene/keys.ts";
 
@@ -47,11 +47,11 @@ it("a tap is one step; a held key moves by time, whatever the keyboard repeats a
   key("keydown", " "); // the keyboard will not repeat the arrow
   for (let now = 10; now <= 1000; now += 10) frame(now);
   expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
-  expect(pushes).toEqual([4]);
+  expect(pushes).toEqual([FIRM]);
   key("keyup", "ArrowDown");
   frame(1400);
   expect(deep()).toBeCloseTo(0.25e-3 + 7.5e-3, 9);
-  expect(pushes).toEqual([4]); // the thumb goes on
+  expect(pushes).toEqual([FIRM]); // the thumb goes on
   key("keydown", "ArrowUp");
   key("keydown", "ArrowUp", { repeat: true });
   key("keydown", "ArrowUp", { repeat: true });
@@ -93,7 +93,7 @@ it("Space pushes the plunger while it is held, and losing the focus lets go", ()
   key("keydown", " ");
   key("keyup", " ");
   canvas.dispatchEvent(new Event("blur"));
-  expect(pushes).toEqual([4, 0, 0]);
+  expect(pushes).toEqual([FIRM, 0, 0]);
 });
 
 it("with Command or another such key nothing is held: macOS sends no keyup then", () => {

@@ -32,7 +32,7 @@ class Judge:
         self.text = text
 
     def alarm(self, space: TargetSpace) -> str:
-        """The instruction while the goal cannot be met any more, or empty."""
+        """The instruction while the goal cannot be met any more, or only if the person acts at once; or empty."""
         return ""
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:

@@ -126,6 +126,7 @@ class PlungerJudge(WindowJudge):
         self.after_yield = goal.seconds
         self.gave_way = False
         self._until, self._from = -np.inf, np.nan  # end of the last window, s; volume at its start, m^3
+        self._pushes = False  # whether the thumb pushes in the last tick
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._watch(ticks, np.isfinite(ticks.injected))
@@ -142,6 +143,11 @@ class PlungerJudge(WindowJudge):
                 self.met = first_of(part, ~window[start:end])
         self.busy = window
         self.waits_for = "thumb" if window[-1] else ""
+        self._pushes = bool(ticks.push[-1] > RESTING_N)
+
+    def alarm(self, space: TargetSpace) -> str:
+        # A thumb that is a key or a finger feels nothing.
+        return "The plunger gives way: let it go, and stop." if self.waits_for and self._pushes else ""
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return (
