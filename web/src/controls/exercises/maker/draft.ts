@@ -66,7 +66,7 @@ export type FieldName = Exclude<keyof Draft, "goals"> | `goal.${string}`;
 const LEAST_ROOM = 0.2; // mm
 const HEIGHT = 5; // mm in front of the surface, where the needle waits
 
-const TO_A_VESSEL = 30; // degrees to the skin, as in the ready exercise; upright, the tip is longer than a vein is wide
+const TO_A_VESSEL = 30; // degrees to the skin, as the scene begins; upright, the tip is longer than a vein is wide
 
 /** The draft of a scene: behind this membrane, or else behind its last but one, or its only one. */
 export function draftOf(scene: SceneOutline, name = ""): Draft {
@@ -78,36 +78,46 @@ export function draftOf(scene: SceneOutline, name = ""): Draft {
   const between = next ? round((next.top - layer!.bottom) * 1e3) : null;
   const touches = between !== null && between <= LEAST_ROOM; // then the space is the next layer
   const room = touches ? round((next!.bottom - next!.top) * 1e3) : between;
-  return {
+  const draft: Omit<Draft, "instruction"> = {
     title: "My exercise",
-    instruction: `Push in${vessel ? ` at ${TO_A_VESSEL} degrees` : ""} until the ${behind.name} gives way, and stop.`,
     scene: scene.name,
     space: SPACES[behind.behind] ?? (touches ? `the ${next!.name}` : `the space behind the ${behind.name}`),
     behind: behind.name,
     from: 0,
     to: room !== null && room > LEAST_ROOM ? room : 8,
-    angle: vessel ? TO_A_VESSEL : 90,
+    angle: membranes.some((one) => one.behind === "blood") ? TO_A_VESSEL : 90,
     wholeTip: vessel,
     blind: false,
     goals: { stay: 2, entries: 3, time_limit: 60 },
   };
+  return { ...draft, instruction: taskOf(draft) };
+}
+
+/** The task's sentence. */
+function taskOf({ behind, from, angle, goals }: Omit<Draft, "instruction">): string {
+  const push = `Push in${angle === 90 ? "" : ` at ${angle} degrees`}`;
+  const until = "feel_plunger" in goals ? "and push the plunger until it gives way behind" : "until";
+  const gives = "feel_plunger" in goals ? "" : " gives way";
+  const end = from > 0 ? `, go on for ${from} mm, and stop.` : ", and stop.";
+  return `${push} ${until} the ${behind}${gives}${end}`;
 }
 
 const SPACES: Readonly<Record<string, string>> = { blood: "the vessel", "epidural space": "the epidural space" };
 
-/** A draft after a change. What the teacher has not edited follows the scene and the membrane of the goal. */
+/** A draft after a change. What the teacher has not edited follows the scene and the goal. */
 export function changed(
   draft: Draft,
   part: Partial<Draft>,
   scene: SceneOutline,
   edited: ReadonlySet<FieldName>,
 ): Draft {
-  if (part.scene === undefined && part.behind === undefined) return { ...draft, ...part };
+  const followed = (next: Draft): Draft => (edited.has("instruction") ? next : { ...next, instruction: taskOf(next) });
+  if (part.scene === undefined && part.behind === undefined) return followed({ ...draft, ...part });
   const fresh = draftOf(scene, part.behind);
   const kept = (Object.keys(fresh) as (keyof Draft)[]).filter((key) => edited.has(key as FieldName));
   // A goal that names a membrane of another scene cannot be kept.
   const goals = part.scene === undefined ? draft.goals : fresh.goals;
-  return { ...fresh, ...Object.fromEntries(kept.map((key) => [key, draft[key]])), goals };
+  return followed({ ...fresh, ...Object.fromEntries(kept.map((key) => [key, draft[key]])), goals });
 }
 
 export const round = (mm: number): number => Math.round(mm * 10) / 10;

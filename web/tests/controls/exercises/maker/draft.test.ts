@@ -79,12 +79,23 @@ test("what the teacher has not edited follows the membrane of the goal", () => {
   expect([kept.instruction, kept.space, kept.goals]).toEqual(["Slowly!", "the space behind the skin", { stay: 9 }]);
 });
 
+test("the task's sentence follows angle, depth and plunger until the teacher edits it", () => {
+  const none = new Set<never>();
+  const slanted = changed(draftOf(SCENE), { angle: 45, from: 2 }, SCENE, none);
+  expect(slanted.instruction).toBe("Push in at 45 degrees until the front gives way, go on for 2 mm, and stop.");
+  const thumb = changed(draftOf(SCENE), { goals: { feel_plunger: 2 } }, SCENE, none);
+  expect(thumb.instruction).toBe("Push in and push the plunger until it gives way behind the front, and stop.");
+  const own = changed(slanted, { instruction: "Slowly!" }, SCENE, new Set(["instruction"]));
+  expect(changed(own, { angle: 30 }, SCENE, new Set(["instruction"])).instruction).toBe("Slowly!");
+});
+
 test("a needle for a vessel is slanted, and its whole tip must be inside", () => {
   const membranes = SCENE.membranes.map((one) => ({ ...one, behind: one.name === "front" ? "blood" : "fat" }));
   const vein = { ...SCENE, membranes } as SceneOutline;
   expect(draftOf(vein)).toMatchObject({ angle: 30, wholeTip: true, space: "the vessel" });
   expect(draftOf(vein).instruction).toBe("Push in at 30 degrees until the front gives way, and stop.");
-  expect(changed(draftOf(vein), { behind: "skin" }, vein, new Set())).toMatchObject({ angle: 90, wholeTip: false });
+  expect(changed(draftOf(vein), { behind: "skin" }, vein, new Set())).toMatchObject({ angle: 30, wholeTip: false });
+  expect(draftOf(SCENE).angle).toBe(90);
 });
 
 test("the tables have only the goals that are asked for", () => {
