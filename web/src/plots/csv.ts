@@ -49,7 +49,8 @@ function columnsOf(history: History, first: number, end: number, membrane: numbe
     else if (field === each[0])
       for (const i of membranes) for (const one of each) columns.push(...fieldColumns(history, one, i));
   }
-  if (isCompared(history, first, end)) columns.push(...numbers(history.column("other_force"), "other_f{a}_N", 3, 3, 0));
+  if (isCompared({ history, first, end }))
+    columns.push(...numbers(history.column("other_force"), "other_f{a}_N", 3, 3, 0));
   return columns;
 }
 

@@ -31,7 +31,7 @@ export function forceCurves(source: Source, first: number, end: number, theme: T
     { id: "felt", text: feltForce(scaleOf(source)), colour: theme.text },
     { id: "permitted", text: "force limit", colour: theme.danger, dash: DASH },
   ];
-  if (isCompared(source.history, first, end))
+  if (isCompared({ history: source.history, first, end }))
     curves.push({ id: "other", text: otherName(source), colour: theme.quiet });
   return curves;
 }

@@ -202,7 +202,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     read();
     if (time - comparedAt > 250) {
       comparedAt = time;
-      const apart = difference(history, window.first, window.end);
+      const apart = difference({ history, first: window.first, end: window.end });
       compared.textContent = apart
         ? `solvers differ by ${newton(apart.rms, 4)} rms, ${newton(apart.largest, 3)} at most`
         : "";

@@ -134,9 +134,9 @@ export class ForceDepthDrawing {
       this.ys = new Float32Array(2 * n);
     }
     const { x, y } = this.pane;
-    const { history } = source;
-    gather(history, first, end, "depth", membrane, MM * x.slope, x.px(0), this.xs);
-    gather(history, first, end, "axial_force", membrane, -y.slope, y.px(0), this.ys);
+    const ticks = { history: source.history, first, end };
+    gather(ticks, "depth", membrane, { gain: MM * x.slope, bias: x.px(0), out: this.xs });
+    gather(ticks, "axial_force", membrane, { gain: -y.slope, bias: y.px(0), out: this.ys });
     return n;
   }
 
@@ -163,21 +163,21 @@ export class ForceDepthDrawing {
   /** Draws the felt force, the force limit and the other solver's force, where they are switched on. */
   private drawMore(pen: Pen, picture: ForceDepthPicture, first: number, end: number, theme: Theme): void {
     const { source, hidden } = picture;
-    const { history } = source;
+    const ticks = { history: source.history, first, end };
     const { y } = this.pane;
-    const other = hidden.shows("other") && isCompared(history, first, end);
+    const other = hidden.shows("other") && isCompared(ticks);
     for (const i of drawnMembranes(picture)) {
       const n = this.pixels(source, first, end, i);
       if (hidden.shows("permitted")) {
-        gatherPermitted(history, first, end, i, y.slope, y.px(0), this.ys);
+        gatherPermitted(ticks, i, { gain: y.slope, bias: y.px(0), out: this.ys });
         this.drawNew(pen, 0, n, { colour: theme.danger, width: 1.25, dash: DASH }, true);
       }
       if (hidden.shows("felt")) {
-        gatherFelt(history, first, end, i, -y.slope, y.px(0), this.ys);
+        gatherFelt(ticks, i, { gain: -y.slope, bias: y.px(0), out: this.ys });
         this.drawNew(pen, 0, n, { colour: theme.text, width: 1.25, alpha: 0.7 }, true);
       }
       if (other) {
-        gatherOther(history, first, end, i, -y.slope, y.px(0), this.ys);
+        gatherOther(ticks, i, { gain: -y.slope, bias: y.px(0), out: this.ys });
         this.drawNew(pen, 0, n, { colour: theme.quiet, width: 1 }, true);
       }
     }

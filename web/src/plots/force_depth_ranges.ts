@@ -1,5 +1,5 @@
 import { drawnMembranes, endOf, type ForceDepthPicture, meanBands, overlaidMembranes } from "./force_depth_picture.ts";
-import { Extent, gatherOther, isCompared } from "./gather.ts";
+import { Extent, gatherOther, isCompared, type Ticks } from "./gather.ts";
 import type { Pane } from "./kit/axes.ts";
 import { AutoRange } from "./kit/scale.ts";
 
@@ -33,23 +33,22 @@ export class ForceDepthRanges {
   private measure(picture: ForceDepthPicture): void {
     const { x, y } = this;
     const { source, overlay, window, hidden } = picture;
-    const { history } = source;
     x.forget();
     y.forget();
     y.take(-0.1);
     y.take(0.1);
     x.take(2);
-    const end = endOf(picture);
-    const compared = hidden.shows("other") && isCompared(history, window.first, end);
-    if (hidden.shows("permitted")) y.takeColumn(history, window.first, end, "ceiling", 0, 1);
+    const ticks = { history: source.history, first: window.first, end: endOf(picture) };
+    const compared = hidden.shows("other") && isCompared(ticks);
+    if (hidden.shows("permitted")) y.takeColumn(ticks, "ceiling", 0, 1);
     for (const i of drawnMembranes(picture)) {
       const law = source.laws.value[i];
       for (const force of law?.lower ?? []) y.take(-force);
       for (const force of law?.upper ?? []) y.take(-force);
       if (law) x.take(1.2 * law.through * MM);
-      x.takeColumn(history, window.first, end, "depth", i, MM);
-      y.takeColumn(history, window.first, end, "axial_force", i, -1);
-      if (compared) this.takeOther(picture, i, end);
+      x.takeColumn(ticks, "depth", i, MM);
+      y.takeColumn(ticks, "axial_force", i, -1);
+      if (compared) this.takeOther(ticks, i);
     }
     for (const { band } of meanBands(picture)) {
       band.mean.forEach((mean, i) => {
@@ -57,15 +56,15 @@ export class ForceDepthRanges {
       });
     }
     for (const i of overlaidMembranes(picture)) {
-      const { first, end } = overlay!.history;
-      y.takeColumn(overlay!.history, first, end, "axial_force", i, -1);
+      const { history } = overlay!;
+      y.takeColumn({ history, first: history.first, end: history.end }, "axial_force", i, -1);
     }
   }
 
-  private takeOther({ source, window }: ForceDepthPicture, membrane: number, end: number): void {
-    const n = end - window.first;
+  private takeOther(ticks: Ticks, membrane: number): void {
+    const n = ticks.end - ticks.first;
     if (this.scratch.length < n) this.scratch = new Float32Array(2 * n);
-    gatherOther(source.history, window.first, end, membrane, -1, 0, this.scratch);
+    gatherOther(ticks, membrane, { gain: -1, bias: 0, out: this.scratch });
     this.y.takeNumbers(this.scratch, n);
   }
 }

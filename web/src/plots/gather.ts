@@ -4,13 +4,24 @@ import { codeOf, type FloatColumn } from "../wire/ticks.ts";
 type Column = Exclude<FloatColumn, "time">;
 const OUTSIDE = codeOf("phase", "outside");
 
+/** The ticks from `first` up to but not including `end`. */
+export interface Ticks {
+  readonly history: History;
+  readonly first: number;
+  readonly end: number;
+}
+
+/** Where the values go: out[i] = bias + gain * value. */
+export interface Into {
+  readonly gain: number;
+  readonly bias: number;
+  readonly out: Float32Array;
+}
+
+type Use = (slot: number, n: number, at: number) => void;
+
 /** Calls `use` for each contiguous part of the ticks in the ring buffers: two parts at most. */
-function eachPart(
-  history: History,
-  first: number,
-  end: number,
-  use: (slot: number, n: number, at: number) => void,
-): void {
+function eachPart({ history, first, end }: Ticks, use: Use): void {
   for (let at = 0; first + at < end; ) {
     const slot = history.slot(first + at);
     const n = Math.min(end - first - at, history.capacity - slot);
@@ -19,40 +30,26 @@ function eachPart(
   }
 }
 
-/** out[i] = bias + gain * row[offset] of the column, for the ticks from `first` up to but not including `end`. */
-export function gather(
-  history: History,
-  first: number,
-  end: number,
-  column: Column,
-  offset: number,
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
+/** The values row[offset] of the column. */
+export function gather(ticks: Ticks, column: Column, offset: number, { gain, bias, out }: Into): void {
+  const { history } = ticks;
   const values = history.column(column);
   const width = history.width(column);
-  eachPart(history, first, end, (slot, n, at) => {
+  eachPart(ticks, (slot, n, at) => {
     for (let i = 0, from = slot * width + offset; i < n; i++, from += width) out[at + i] = bias + gain * values[from]!;
   });
 }
 
 /** As `gather`, for the time, s. */
-export function gatherTime(
-  history: History,
-  first: number,
-  end: number,
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
-  eachPart(history, first, end, (slot, n, at) => {
+export function gatherTime(ticks: Ticks, { gain, bias, out }: Into): void {
+  const { history } = ticks;
+  eachPart(ticks, (slot, n, at) => {
     for (let i = 0; i < n; i++) out[at + i] = bias + gain * history.time[slot + i]!;
   });
 }
 
 /** Whether the other solver ran at any of the ticks. */
-export function isCompared(history: History, first: number, end: number): boolean {
+export function isCompared({ history, first, end }: Ticks): boolean {
   const other = history.column("other_force");
   for (let tick = first; tick < end; tick++) if (!Number.isNaN(other[3 * history.slot(tick)]!)) return true;
   return false;
@@ -63,22 +60,15 @@ export function isCompared(history: History, first: number, end: number): boolea
  * two total forces along b. NaN while the tip is outside the membrane. With a single membrane on the needle, the
  * result is the other solver's axial force itself.
  */
-export function gatherOther(
-  history: History,
-  first: number,
-  end: number,
-  membrane: number,
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
+export function gatherOther(ticks: Ticks, membrane: number, { gain, bias, out }: Into): void {
+  const { history } = ticks;
   const m = history.membranes;
   const axial = history.column("axial_force");
   const other = history.column("other_force");
   const model = history.column("model_force");
   const b = history.column("direction");
   const phase = history.byteColumn("phase");
-  eachPart(history, first, end, (slot, n, at) => {
+  eachPart(ticks, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
       const row = slot + i;
       const cell = row * m + membrane;
@@ -97,16 +87,9 @@ export function gatherOther(
  * The size of a force, N; negative if it pulls the needle in. `force` is what the device gives, after all limits;
  * `model_force` is what exercises judge. They are equal while no limit acts.
  */
-export function gatherSize(
-  history: History,
-  first: number,
-  end: number,
-  column: "force" | "model_force",
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
-  eachPart(history, first, end, (slot, n, at) => {
+export function gatherSize(ticks: Ticks, column: "force" | "model_force", { gain, bias, out }: Into): void {
+  const { history } = ticks;
+  eachPart(ticks, (slot, n, at) => {
     for (let i = 0; i < n; i++) out[at + i] = bias + gain * signedSize(history, column, slot + i);
   });
 }
@@ -125,21 +108,14 @@ export function signedSize(history: History, column: "force" | "model_force", ro
 }
 
 /** A membrane's share of the felt force, along the needle, N: the device scales all shares alike. NaN outside it. */
-export function gatherFelt(
-  history: History,
-  first: number,
-  end: number,
-  membrane: number,
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
+export function gatherFelt(ticks: Ticks, membrane: number, { gain, bias, out }: Into): void {
+  const { history } = ticks;
   const m = history.membranes;
   const [axial, force, model] = [history.column("axial_force"), history.column("force"), history.column("model_force")];
   const phase = history.byteColumn("phase");
   const size = (values: Float32Array, row: number): number =>
     Math.sqrt(values[3 * row]! ** 2 + values[3 * row + 1]! ** 2 + values[3 * row + 2]! ** 2);
-  eachPart(history, first, end, (slot, n, at) => {
+  eachPart(ticks, (slot, n, at) => {
     for (let i = 0; i < n; i++) {
       const row = slot + i;
       const cell = row * m + membrane;
@@ -151,20 +127,13 @@ export function gatherFelt(
 }
 
 /** The force limit while the tip is inside a membrane, N; NaN outside it. */
-export function gatherPermitted(
-  history: History,
-  first: number,
-  end: number,
-  membrane: number,
-  gain: number,
-  bias: number,
-  out: Float32Array,
-): void {
-  gather(history, first, end, "ceiling", 0, gain, bias, out);
+export function gatherPermitted(ticks: Ticks, membrane: number, into: Into): void {
+  const { history } = ticks;
+  gather(ticks, "ceiling", 0, into);
   const m = history.membranes;
   const phase = history.byteColumn("phase");
-  eachPart(history, first, end, (slot, n, at) => {
-    for (let i = 0; i < n; i++) if (phase[(slot + i) * m + membrane] === OUTSIDE) out[at + i] = Number.NaN;
+  eachPart(ticks, (slot, n, at) => {
+    for (let i = 0; i < n; i++) if (phase[(slot + i) * m + membrane] === OUTSIDE) into.out[at + i] = Number.NaN;
   });
 }
 
@@ -184,12 +153,13 @@ export class Extent {
   takeNumbers(values: Float32Array, count: number): void {
     for (let i = 0; i < count; i++) this.take(values[i]!);
   }
-  takeColumn(history: History, first: number, end: number, column: Column, offset: number, gain: number): void {
+  takeColumn(ticks: Ticks, column: Column, offset: number, gain: number): void {
+    const { history } = ticks;
     const values = history.column(column);
     const width = history.width(column);
     let low = Number.POSITIVE_INFINITY;
     let high = Number.NEGATIVE_INFINITY;
-    eachPart(history, first, end, (slot, n) => {
+    eachPart(ticks, (slot, n) => {
       for (let i = 0, from = slot * width + offset; i < n; i++, from += width) {
         const value = values[from]!;
         if (value < low) low = value;
@@ -212,10 +182,9 @@ export interface Difference {
 }
 
 /**
- * Size of the difference between the two solvers' forces, for the ticks from `first` up to but not including `end`.
- * Null if no tick has both forces.
+ * Size of the difference between the two solvers' forces. Null if no tick has both forces.
  */
-export function difference(history: History, first: number, end: number): Difference | null {
+export function difference({ history, first, end }: Ticks): Difference | null {
   const model = history.column("model_force");
   const other = history.column("other_force");
   let count = 0;

@@ -22,20 +22,19 @@ export class TimeLines {
 
   /** Takes the values of all shown curves from the tick `first` up to but not including `end`: N, and mm. */
   measure({ source, hidden }: TimePicture, first: number, end: number, force: Extent, depth: Extent): void {
-    const { history } = source;
-    const shown = shownMembranes(history, hidden);
+    const ticks = { history: source.history, first, end };
     this.room(end - first);
-    for (const i of shown) {
-      force.takeColumn(history, first, end, "axial_force", i, -1);
-      depth.takeColumn(history, first, end, "depth", i, MM);
+    for (const i of shownMembranes(source.history, hidden)) {
+      force.takeColumn(ticks, "axial_force", i, -1);
+      depth.takeColumn(ticks, "depth", i, MM);
     }
     for (const [id, column] of SIZES) {
       if (!hidden.shows(id)) continue;
-      gatherSize(history, first, end, column, 1, 0, this.ys);
+      gatherSize(ticks, column, { gain: 1, bias: 0, out: this.ys });
       force.takeNumbers(this.ys, end - first);
     }
-    if (hidden.shows("permitted")) force.takeColumn(history, first, end, "ceiling", 0, 1);
-    if (hasThumb(source) && hidden.shows("thumb")) force.takeColumn(history, first, end, "thumb_force", 0, -1);
+    if (hidden.shows("permitted")) force.takeColumn(ticks, "ceiling", 0, 1);
+    if (hasThumb(source) && hidden.shows("thumb")) force.takeColumn(ticks, "thumb_force", 0, -1);
   }
 
   /** Draws the curves from the tick `first` up to but not including `end`. */
@@ -45,14 +44,15 @@ export class TimeLines {
     this.room(n);
     const { force, depth } = this;
     const { history } = picture.source;
+    const ticks = { history, first, end };
     const { slope } = force.x;
-    gatherTime(history, first, end, slope, force.x.from - slope * force.x.min, this.xs);
+    gatherTime(ticks, { gain: slope, bias: force.x.from - slope * force.x.min, out: this.xs });
     pen.within(force.left, force.top, force.width, force.height, () =>
       this.drawForces(pen, picture, first, end, theme),
     );
     pen.within(depth.left, depth.top, depth.width, depth.height, () => {
       for (const i of shownMembranes(history, picture.hidden)) {
-        gather(history, first, end, "depth", i, MM * depth.y.slope, depth.y.px(0), this.ys);
+        gather(ticks, "depth", i, { gain: MM * depth.y.slope, bias: depth.y.px(0), out: this.ys });
         this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
       }
     });
@@ -60,6 +60,7 @@ export class TimeLines {
 
   private drawForces(pen: Pen, { source, hidden }: TimePicture, first: number, end: number, theme: Theme): void {
     const { history } = source;
+    const ticks = { history, first, end };
     const { x, y } = this.force;
     const gain = y.slope;
     const zero = y.px(0);
@@ -71,24 +72,24 @@ export class TimeLines {
     };
     for (const [id, column] of SIZES) {
       if (!hidden.shows(id)) continue;
-      gatherSize(history, first, end, column, gain, zero, this.ys);
+      gatherSize(ticks, column, { gain, bias: zero, out: this.ys });
       this.drawLine(pen, n, looks[id]);
     }
     if (hasThumb(source) && hidden.shows("thumb")) {
-      gather(history, first, end, "thumb_force", 0, -gain, zero, this.ys);
+      gather(ticks, "thumb_force", 0, { gain: -gain, bias: zero, out: this.ys });
       this.drawLine(pen, n, { colour: theme.accent, width: 1.5, dash: THUMB_DASH, phase });
     }
     if (hidden.shows("permitted")) {
-      gather(history, first, end, "ceiling", 0, gain, zero, this.ys);
+      gather(ticks, "ceiling", 0, { gain, bias: zero, out: this.ys });
       this.drawLine(pen, n, { colour: theme.danger, width: 1.25, dash: DASH, phase });
     }
-    const compared = hidden.shows("other") && isCompared(history, first, end);
+    const compared = hidden.shows("other") && isCompared(ticks);
     for (const i of shownMembranes(history, hidden)) {
       if (compared) {
-        gatherOther(history, first, end, i, -gain, zero, this.ys);
+        gatherOther(ticks, i, { gain: -gain, bias: zero, out: this.ys });
         this.drawLine(pen, n, { colour: theme.quiet, width: 1 });
       }
-      gather(history, first, end, "axial_force", i, -gain, zero, this.ys);
+      gather(ticks, "axial_force", i, { gain: -gain, bias: zero, out: this.ys });
       this.drawLine(pen, n, { colour: colourOf(theme, i), width: 1.5 });
     }
   }

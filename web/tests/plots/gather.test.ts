@@ -10,30 +10,30 @@ describe("gathering ticks for a drawing", () => {
 
   it("takes a membrane's column across the end of the rings", () => {
     const out = new Float32Array(10);
-    gather(two, 250 - 10, 250, "depth", 1, 2, 0.5, out);
+    gather({ history: two, first: 250 - 10, end: 250 }, "depth", 1, { gain: 2, bias: 0.5, out });
     expect([...out]).toEqual(Array.from({ length: 10 }, (_, i) => 2 * (1240 + i) + 0.5));
     expect([two.first, two.end]).toEqual([122, 250]);
   });
 
   it("keeps time apart to the tick", () => {
     const out = new Float32Array(3);
-    gatherTime(two, 240, 243, 1000, -240, out);
+    gatherTime({ history: two, first: 240, end: 243 }, { gain: 1000, bias: -240, out });
     expect([...out]).toEqual([0, 1, 2].map((v) => expect.closeTo(v, 3)));
   });
 
   it("finds lowest and highest, and nothing where all is NaN", () => {
     const extent = new Extent();
-    extent.takeColumn(two, 130, 140, "depth", 0, -1);
+    extent.takeColumn({ history: two, first: 130, end: 140 }, "depth", 0, -1);
     expect([extent.low, extent.high]).toEqual([-139, -130]);
     extent.forget();
-    extent.takeColumn(history(5, 1, { depth: () => [Number.NaN] }), 0, 5, "depth", 0, 1);
+    extent.takeColumn({ history: history(5, 1, { depth: () => [Number.NaN] }), first: 0, end: 5 }, "depth", 0, 1);
     expect(extent.low).toBeGreaterThan(extent.high);
   });
 
   it("the force at the hand is its size, as in an exercise's result, negative where it pulls the needle in", () => {
     const aside = history(2, 1, { force: (tick) => [0.3, tick ? -0.4 : 0.4, 0], axis: () => [0, -1, 0] });
     const out = new Float32Array(2);
-    gatherSize(aside, 0, 2, "force", 1, 0, out);
+    gatherSize({ history: aside, first: 0, end: 2 }, "force", { gain: 1, bias: 0, out });
     expect([...out]).toEqual([expect.closeTo(0.5, 6), expect.closeTo(-0.5, 6)]);
   });
 });
@@ -47,16 +47,18 @@ describe("the other solver", () => {
     phase: (tick) => [tick < 10 ? 0 : 2],
   });
 
+  const all = { history: compared, first: 0, end: 100 };
+
   it("its axial force is this one's and the difference along b, inside a membrane only", () => {
     const out = new Float32Array(100);
-    gatherOther(compared, 0, 100, 0, 1, 0, out);
+    gatherOther(all, 0, { gain: 1, bias: 0, out });
     expect(out[5]).toBeNaN();
     expect(out[20]).toBeCloseTo(-0.4, 6);
     expect(out[21]).toBeCloseTo(-0.6, 6);
   });
 
   it("their difference is told as root mean square and largest", () => {
-    expect(difference(compared, 0, 100)).toEqual({
+    expect(difference(all)).toEqual({
       ticks: 100,
       rms: expect.closeTo(0.1, 6),
       largest: expect.closeTo(0.1, 6),
@@ -64,10 +66,10 @@ describe("the other solver", () => {
   });
 
   it("without it there is no difference, and nothing to draw", () => {
-    const alone = history(10, 1);
-    expect(difference(alone, 0, 10)).toBeNull();
-    expect(isCompared(alone, 0, 10)).toBe(false);
-    expect(isCompared(compared, 0, 10)).toBe(true);
+    const none = { history: history(10, 1), first: 0, end: 10 };
+    expect(difference(none)).toBeNull();
+    expect(isCompared(none)).toBe(false);
+    expect(isCompared(all)).toBe(true);
   });
 });
 
