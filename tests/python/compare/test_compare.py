@@ -1,8 +1,9 @@
-"""Runs compared: their numbers against independent calculations, their mean, and a parameter varied."""
+"""Runs compared: their numbers against independent calculations, their mean, and a parameter varied, beside a run."""
 
 import csv
 import io
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 from punctura._core import SimulatedDevice
 from punctura.compare import Motion, Run, VaryError, compare, recorded_motion, recorded_run, stroke, vary
+from punctura.compare.background import LOWEST, NICE
 from punctura.compare.bundle import save_bundle
 from punctura.compare.worker import Job, Variation, do
 from punctura.events import crossing
@@ -259,3 +261,37 @@ def test_the_worker_tells_its_progress_and_its_result_or_the_reason(scene):
     assert len(result["statistics"]) == 3 and len(result["depth"]["membranes"]) == 3
     assert result["time"]["bands"]["depth"]["count"][0] == 3
     assert "no field" in answer(path="nothing")[-1]["error"]
+
+
+PROGRAM = f"""
+import os
+from punctura.compare.background import step_back
+print(max(os.nice(0), 0))
+os.environ[{NICE!r}] = "0"
+step_back()
+print(os.nice(0))
+os.environ[{NICE!r}] = "much"
+step_back()
+print(os.nice(0))
+"""
+
+
+def test_a_computation_gets_the_lowest_priority_or_the_one_that_is_asked_for():
+    ran = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True)
+    before, asked, lowest = map(int, ran.stdout.split())
+    assert (asked, lowest) == (before, LOWEST)
+
+
+SESSION = """
+import subprocess, sys
+subprocess.run([sys.executable, "-c", "from punctura.compare.background import step_back; step_back()"], check=True)
+print(open("/proc/self/autogroup").read())
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/autogroup"), reason="only Linux schedules by sessions")
+def test_the_other_programs_of_its_terminal_keep_their_priority():
+    ran = subprocess.run(
+        [sys.executable, "-c", SESSION], capture_output=True, text=True, check=True, start_new_session=True
+    )
+    assert ran.stdout.split()[-1] == "0"

@@ -1,13 +1,15 @@
-"""No cell of a CSV table becomes a formula in a spreadsheet, whichever separator the spreadsheet expects."""
+"""No cell of a CSV table becomes a formula in a spreadsheet, and a file's name as text is fit for a terminal."""
 
 import csv
 import io
 
+import punctura as pn
 import pyarrow as pa
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from punctura.files.cells import csv_line, text_cell
+from punctura.files.names import as_text
 from punctura.ticks.files import save
 
 SIGNS = "=+-@\uff1d\uff0b\uff0d\uff20"
@@ -49,3 +51,10 @@ def test_a_table_with_words_holds_no_formula_and_keeps_its_numbers(tmp_path):
     save(pa.table({"run": ["=cmd()", 'a "b", c', "x;+1"], "force_N": [-0.5, 1e-17, None]}), tmp_path / "t.csv")
     rows = list(csv.reader((tmp_path / "t.csv").open(newline="")))
     assert rows == [["run", "force_N"], ["'=cmd()", "-0.5"], ['a "b", c', "1e-17"], ["x;'+1", ""]]
+
+
+def test_what_no_scene_may_have_as_its_name_is_replaced():
+    wall = pn.load_scene("k06-fig10").membranes
+    name = as_text(b"a\x1b[31m\nb\xff\xc2\x9b \xc3\xa9.csv")
+    assert name == "a?[31m?b\ufffd? \u00e9.csv"
+    pn.Insertion(pn.Scene(name, pn.Needle(1e-3, 0.3), pn.Coupling(400, 1), wall))

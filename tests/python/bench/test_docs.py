@@ -1,5 +1,8 @@
-"""The bound of docs/passivity.md on the simulated device, without dry friction: below it the tip oscillates."""
+"""The numbers of docs/passivity.md, without dry friction, and of docs/felt-force.md, on the simulated device."""
 
+from pathlib import Path
+
+import felt_force
 import numpy as np
 import pytest
 from passivity import STEP, Case, Grip
@@ -29,3 +32,18 @@ def test_the_dry_friction_of_one_step_on_all_couplings_ends_the_oscillation_belo
     case = Case("venipuncture", "line_fit")
     assert case.fastest(0.5) > 20e-3
     assert case.fastest(0.5, friction=case.stiffness * STEP, step=STEP) == 0
+
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_the_docs_have_the_measured_table_and_no_exercise_is_passed_on_a_loss_that_cannot_be_felt():
+    runs = [
+        felt_force.pushed(device, scale, speed)
+        for device in felt_force.DEVICES
+        for scale in felt_force.SCALES
+        for speed in felt_force.SPEEDS
+    ]
+    assert felt_force.table(runs) in (ROOT / "docs" / "felt-force.md").read_text(encoding="utf-8")
+    assert [run.loss.felt for run in runs] == [False] * 3 + [True] * 3 + [False] * 3 + [True] * 3
+    assert all(run.cut_s == 0 for run in runs if run.loss.felt)
