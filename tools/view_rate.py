@@ -1,11 +1,13 @@
 """Measures how fast the 3-D view is drawn in Chromium without a graphics card.
 
     python tools/view_rate.py [--scene epidural] [--seconds 30] [--size 1440x900] [--warm 22] [--page FOLDER] [--stage]
+                               [--rest]
 
 The simulated hand goes in and out through all membranes without a rest: at rest the view draws only what fades, 4
-times a second. Prints the pictures per second of the view, of a plot and of the browser (medians of 2 s), the sharpness
-that the view chose, and the processor time per picture of Chromium's processes. Nothing else should run on the
-computer, except for the processor times, which hardly depend on it.
+times a second. With --rest nothing moves it. Prints the pictures per second of the view, of a plot, of the stage's
+curve and of the browser (medians of 2 s), the sharpness that the view chose, and the processor time of Chromium's
+processes, in all and per picture. Nothing else should run on the computer, except for the processor times, which hardly
+depend on it.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ import sys
 import tempfile
 import threading
 import time
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -60,18 +63,19 @@ class Hand(threading.Thread):
 def measure(page: WatchedPage, seconds: float, warm: float) -> None:
     page.pause(warm)
     page.rates()
-    before, samples = page.processor_seconds(), []
+    before, samples, began = page.processor_seconds(), [], time.monotonic()
     for _ in range(max(1, round(seconds / EACH_S))):
         page.pause(EACH_S)
         samples.append(page.rates())
-    after = page.processor_seconds()
+    after, passed = page.processor_seconds(), time.monotonic() - began
     for name in samples[0]:
         rates = sorted(sample[name] for sample in samples)
         print(f"{name:8} {statistics.median(rates):5.1f} a second, from {rates[0]:.1f} to {rates[-1]:.1f}")
     pictures = sum(sample["view"] for sample in samples) * EACH_S
     for kind in sorted(after):
         used = after[kind] - before.get(kind, 0.0)
-        print(f"{kind:8} {used:5.1f} s of processor time, {1e3 * used / max(1.0, pictures):.1f} ms per picture")
+        each = f", {1e3 * used / pictures:.1f} ms per picture" if pictures else ""
+        print(f"{kind:8} {used:5.1f} s of processor time, {100 * used / passed:.1f} % of a core{each}")
     print(f"sharpness: {page.text('.view-coarser') or 'full'}")
 
 
@@ -83,6 +87,7 @@ def main() -> int:
     parser.add_argument("--warm", type=float, default=WARM_S, help="seconds before the measurement")
     parser.add_argument("--page", type=Path, help="folder of another build of the page")
     parser.add_argument("--stage", action="store_true", help="the stage, and not the bench")
+    parser.add_argument("--rest", action="store_true", help="nothing moves the needle")
     arguments = parser.parse_args()
     width, height = (int(part) for part in arguments.size.split("x"))
     with (
@@ -92,7 +97,7 @@ def main() -> int:
     ):
         client.wait(lambda: client.of("scene"))
         with (
-            Hand(client, load_scene(arguments.scene)),
+            nullcontext() if arguments.rest else Hand(client, load_scene(arguments.scene)),
             WatchedPage(studio.url, width, height, bench=not arguments.stage) as page,
         ):
             measure(page, arguments.seconds, arguments.warm)

@@ -1,11 +1,13 @@
 """The epidural: the slice beside the 3-D view, the labels of the view, and the syringe."""
 
+import io
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from person import columns, drag_in, opened, ready, saved, tab, ticks_come, view
+from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, expect
 from senses import STUBS
 from studio_process import StudioProcess
@@ -157,6 +159,26 @@ def test_the_stage_tells_how_much_has_left_the_syringe(shown: Page) -> None:
     shown.keyboard.down(" ")
     expect(injected).not_to_have_text(before)
     shown.keyboard.up(" ")
+
+
+def fat_at_the_left_border(page: Page) -> bool:
+    size = page.viewport_size
+    assert size
+    clip = {"x": 1, "y": 0, "width": 1, "height": size["height"]}
+    column = Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB")
+    return any(red > 200 and green > 150 and blue < 150 for _, (red, green, blue) in column.getcolors())
+
+
+def test_the_tissue_goes_on_to_the_border_of_a_large_window_and_at_a_zoom_of_200_percent(shown: Page) -> None:
+    shown.keyboard.press("Alt+b")
+    for width, height in ((1920, 1080), (720, 450)):
+        shown.set_viewport_size({"width": width, "height": height})
+        for _ in range(100):
+            shown.wait_for_timeout(100)
+            if fat_at_the_left_border(shown):
+                break
+        else:
+            raise AssertionError(f"the tissue ends before the border of {width} px")
 
 
 def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_path: Path) -> None:

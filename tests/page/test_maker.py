@@ -14,6 +14,9 @@ def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
     side = tab(page, "Exercises")
     side.get_by_text("Make an exercise", exact=True).click()
     side.get_by_label("Title").fill("My own goal")
+    task = side.get_by_label("Instruction")
+    expect(task).to_have_value("Push in until the thin membrane gives way, and stop.")
+    assert task.evaluate("e => e.scrollHeight <= e.clientHeight && e.scrollWidth <= e.clientWidth")  # all is readable
     edge = side.get_by_role("slider", name="Lower edge of the goal")
     before = float(edge.get_attribute("aria-valuenow"))
     edge.hover()

@@ -16,6 +16,7 @@ import { plotsOf } from "./shared.ts";
 import { choice, menu, pauseButton, saveMenu, scaleChip } from "./toolbar.ts";
 
 const REDRAW_INTERVAL = 250; // ms, at least, between two drawings of the background
+const ALL = "all"; // membranes; longer words are cut off in a narrow panel
 const PICK_RADIUS = 60; // px: the pointer reads the nearest point within this distance
 
 /** Force against depth: all ticks of the window, on top of each membrane's friction band. */
@@ -36,7 +37,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     reset.hidden = area === null;
     changes++;
   };
-  const which = choice("Membrane", [["all", "all membranes"]], "all", (value) => {
+  const which = choice("Membrane", [["all", ALL]], "all", (value) => {
     chosen = value === "all" ? null : Number(value);
     setZoom(null);
   });
@@ -116,7 +117,7 @@ export const forceDepthPlot: Panel = (host, app) => {
     const names = plots.source.scene.value?.membranes.map((m) => m.name) ?? [];
     const entries = Array.from({ length: Math.max(membranes, names.length) }, (_, i) => [String(i), name(i)] as const);
     if (chosen !== null && chosen >= entries.length) chosen = null;
-    which.offer([["all", "all membranes"], ...entries], chosen === null ? "all" : String(chosen));
+    which.offer([["all", ALL], ...entries], chosen === null ? "all" : String(chosen));
     changes++;
   };
   let leave = (): void => {};

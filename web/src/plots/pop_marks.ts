@@ -8,6 +8,7 @@ import { popLabel } from "./marks.ts";
 
 const MM = 1e3;
 const CAP = 5; // px
+const SEEN = 14; // px: the words of a smaller drop would lie on the names of the curves
 
 /** Draws the drop of a pop as a line from the force before it to the force after it, at x, px. */
 export function drawDrop(pen: Pen, pane: Pane, x: number, event: MembraneEvent, theme: Theme): void {
@@ -39,7 +40,9 @@ export function drawPops(pen: Pen, pane: Pane, picture: ForceDepthPicture, theme
       const { x, text } = labels[i]!;
       // Beside the upper end: the names of the curves are at the forces after the pops.
       const upper = Math.max(pane.top + 8, pane.y.px(Math.abs(pops[i]!.force_before)));
-      if (fits) pen.text(x, upper, text, { colour: theme.text, size: 11.5, bold: true, halo: theme.panel });
+      const high = Math.abs(pane.y.slope * pops[i]!.drop);
+      if (fits && high >= SEEN)
+        pen.text(x, upper, text, { colour: theme.text, size: 11.5, bold: true, halo: theme.panel });
     });
   });
 }

@@ -31,7 +31,7 @@ const ACTIVE = codeOf("state", "active");
 const BEFORE_MM = 3; // in front of the skin: so far out, the needle is always in the picture
 const BELOW_MM = 3; // drawn depth below the last of the sheets
 const WIDER = 1.8; // times the tissue's width, on the stage: a needle that stands upright leaves room for it
-const MORE = 6; // times half the tissue's width, on the stage: to the border of the page
+const MORE = 12; // times half the tissue's width, on the stage: to the border of the page
 const LEAST_HEIGHT_PX = 40; // of the tissue, for a scale of depths beside it
 
 /** Everything that the view draws for one moment of a source. */

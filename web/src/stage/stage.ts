@@ -134,9 +134,9 @@ function write(host: HTMLElement, text: string): void {
   if (host.textContent !== text) host.textContent = text;
 }
 
-/** What has left the syringe. */
+/** What has left the syringe. Fluid that pushes the plunger back is no injection. */
 const injectedText = (history: History, tick: number): string =>
-  `${fixedNumber((history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 1)} mL injected`;
+  `${fixedNumber(Math.max(0, history.row("injected", tick)[0] ?? Number.NaN) * 1e6, 1)} mL injected`;
 
 /** The place of one element in another, as shares of its size. */
 function shareOf(part: HTMLElement, whole: HTMLElement): Free | null {

@@ -88,6 +88,17 @@ describe("force against depth", () => {
     expect(band).toContain(at(4, -0.1));
   });
 
+  it("the words of a pop too small to be seen do not lie on the names of the curves", () => {
+    const from = source();
+    const pop = { kind: "event", what: "pop", membrane: 0, name: "skin", tick: 9000, time: 9, depth: 5e-3 } as const;
+    const told = (drop: number): string => {
+      from.events.value = [{ ...pop, force_before: 0.3, force_after: 0.3 - drop, drop }];
+      return drawn(picture(from)).file;
+    };
+    expect(told(0.25)).toContain(">pop −0.25 N<");
+    expect(told(0.01)).not.toContain(">pop −0.01 N<");
+  });
+
   it("the point nearest to the pointer is found", () => {
     const now = picture(source());
     const { drawing } = drawn(now);

@@ -96,7 +96,11 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
   };
   const replace = element("input", { type: "checkbox", id: "maker-replace" });
 
-  const row = (key: FieldName, label: string, box: HTMLInputElement | HTMLSelectElement): HTMLElement => {
+  const row = (
+    key: FieldName,
+    label: string,
+    box: HTMLInputElement | HTMLTextAreaElement | HTMLSelectElement,
+  ): HTMLElement => {
     box.id = `maker-${key}`;
     const problem = element("p", { class: "error", role: "alert", id: `maker-${key}-problem` });
     box.setAttribute("aria-describedby", problem.id);
@@ -104,8 +108,10 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     return element("div", { class: "field maker-field" }, element("label", { for: box.id }, label), box, problem);
   };
   const line = (key: "title" | "instruction" | "space", label: string): HTMLElement => {
-    const box = element("input", { type: "text", class: "words", maxlength: 200 });
-    box.addEventListener("change", () => change({ [key]: box.value }));
+    const long = key === "instruction"; // a sentence, which must be readable as a whole
+    const style = { class: "words", maxlength: 200 };
+    const box = long ? element("textarea", { ...style, rows: 3 }) : element("input", { ...style, type: "text" });
+    box.addEventListener("change", () => change({ [key]: box.value.replace(/\s+/g, " ") }));
     updates.push(() => {
       box.value = draft![key];
     });
