@@ -2,8 +2,8 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--growing 0]
-        [--lag 0] [--delay 0] [--play 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1]
-        [--seed 1]
+        [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto]
+        [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -13,7 +13,8 @@ so that it cannot tell some parameters. --machine: the needle moves at one speed
 whose encoder has counts. --inward: the trace ends at its greatest depth. --walk: the standard deviation,
 N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
 multiples of these, m and N. --growing: noise beside --noise, as a share of the force. --lag, --delay: of the force
-sensor, s. --play: of the drive of --machine, m. --tolerance: the true diameter of the needle is within this share of
+sensor, s. --play: of the drive of --machine, m. --tremor: of 8 to 10 Hz, on the way of --machine, m.
+--tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
 --walls: with 2, the second surface
@@ -61,7 +62,7 @@ HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
-    "--play": "m", "--growing": "of the force",
+    "--play": "m", "--tremor": "m", "--growing": "of the force",
     "--tolerance": "of the diameter", "--wrong": "of the diameter",
 }  # fmt: skip
 
@@ -85,6 +86,7 @@ class Conditions:
     lag: float = 0.0
     delay: float = 0.0
     play: float = 0.0
+    tremor: float = 0.0
     tolerance: float = 0.0
     wrong: float = 0.0
     walls: int = 1
@@ -132,6 +134,8 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
     every = slice(None, None, DEVICE_HZ // given.rate)
     if given.machine:
         time, depth = machine_motion(AIR + deepest)
+        shake = np.sin(2 * np.pi * (8 + 0.4 * (seed % 6)) * time + seed)
+        depth = depth + given.tremor * shake * np.clip(depth / AIR, 0, 1)
         true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0))
         force = Misfit(Trace(depth, depth, time), true).forces(true.with_values(truth | {"play": given.play}))
     else:

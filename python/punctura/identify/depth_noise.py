@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,14 @@ DRAWS, NUMBERS, FEWEST_DRAWS = 64, 4_000_000, 8  # of the true depth: so many, w
 ROUNDS, NEAR = 10, 11  # of the accelerations; second differences of alike variance, in samples
 SHARED = (0.2, 0.6, 0.2)  # of the square of a second difference, with its neighbours: a turn is between two samples
 LEAST, MOST = 1e-7, 1e4  # variance of a second difference, in those of the noise
-FELT = 0.2  # of the noise of the force: what the noise of the depth adds matters beyond it
-SHARED_FELT = 0.05  # the same for an error that equal readings share, and for a noise that is stated
+FELT = 0.05  # of the noise of the force: what the noise of the depth adds matters beyond it
 ROUNDING = 1e-6  # of the range of the depths: less is no noise
 EVEN = 1.5  # times the shortest step of time, of the longest one
 HAND = 12.0  # Hz: a hand does not shake faster
+ORDER = 6  # of differences
 ALIKE = 2.0  # times the noise of every second sample, and the reverse
 TURNS, BENT = 20, 0.05  # second differences that are not 0, and their share: fewer are turns
+MOSTLY = 0.9  # of all bending
 ROUNDED, FAR, NOISIER = 2.6, 0.02, 3.0  # a rounding is at most 1.7 standard deviations, and seems at most 2.8 of noise
 SHORTEST = 50  # samples of a trace
 WHITE = 0.8  # of the samples are independent: they are noise
@@ -45,7 +47,7 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
         shaking, rounded = steady_noise(trace.depth), rounding_noise(trace.depth)
         if shaking <= NOISIER * rounded and (found := _between_steps(trace, rounded)):
             return found, rounded
-    if not _matters(trace, shaking, FELT if noise is None else SHARED_FELT):
+    if not _matters(trace, shaking):
         return trace, 0.0
     quiet, variances = _quiet(trace.depth / shaking)
     if noise is None and _follows(trace, trace.depth / shaking - quiet):
@@ -55,7 +57,7 @@ def with_quiet_depth(trace: Trace, noise: float | None = None) -> tuple[Trace, f
 
 def _between_steps(trace: Trace, rounded: float) -> Trace | None:
     """The same for a depth with this rounding, m; None if it does not matter, or a hand has moved the needle."""
-    if not _matters(trace, rounded, SHARED_FELT):
+    if not _matters(trace, rounded):
         return None
     runs = np.diff(equal_runs(trace.depth))
     weights = np.repeat(1 / runs, runs)  # equal readings have one error
@@ -80,7 +82,7 @@ def rounding_noise(depth: Array) -> float:
 
 def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
     """Why a stated noise of the depth, m, is not taken out: the trace is too short. Nothing if it does not matter."""
-    if noise is None or len(trace) >= SHORTEST or not _matters(trace, noise, SHARED_FELT):
+    if noise is None or len(trace) >= SHORTEST or not _matters(trace, noise):
         return ()
     return (
         f"The stated noise of the depth, {noise:.3g} m, is not taken into account: that needs {SHORTEST} samples, and "
@@ -88,10 +90,10 @@ def noise_not_used(trace: Trace, noise: float | None) -> tuple[str, ...]:
     )
 
 
-def _matters(trace: Trace, noise: float, felt: float = FELT) -> bool:
+def _matters(trace: Trace, noise: float) -> bool:
     """Whether this noise of the depth, m, adds force that shows beside the noise of the force."""
     fine = noise <= ROUNDING * np.ptp(trace.depth)
-    return not fine and noise * _stiffest(trace) > felt * noise_of(trace.force)
+    return not fine and noise * _stiffest(trace) > FELT * noise_of(trace.force)
 
 
 def _fast(trace: Trace) -> bool:
@@ -105,11 +107,19 @@ def _fast(trace: Trace) -> bool:
 def steady_noise(depth: Array) -> float:
     """The noise of a depth (n,), m, if every second sample shows the same one; otherwise it is motion: 0.
 
-    In every second sample a motion at w radians a sample seems 2 (1 + cos w) times as large: more than ALIKE times
-    below a quarter of the sample rate.
+    It is that of the differences of this ORDER, in which the tremor of a hand is small: a motion at w radians a sample
+    seems (2 sin(w/2))^6 as large. In every second sample it seems (2 cos(w/2))^6 times as large: more than ALIKE times
+    below 0.3 of the sample rate.
     """
-    noise, thinned = noise_of(depth), noise_of(depth[::2])
+    noise, thinned = _shaking(depth), _shaking(depth[::2])
     return noise if noise < ALIKE * thinned and thinned < ALIKE * noise else 0.0
+
+
+def _shaking(depth: Array) -> float:
+    """The standard deviation of white noise, m, that such differences of a depth (n,) have."""
+    if len(depth) <= ORDER:
+        return 0.0
+    return float(1.4826 * np.median(np.abs(np.diff(depth, ORDER))) / np.sqrt(comb(2 * ORDER, ORDER)))
 
 
 def _stiffest(trace: Trace) -> float:
@@ -123,14 +133,22 @@ def _stiffest(trace: Trace) -> float:
 def _quiet(depth: Array) -> tuple[Array, Array]:
     """The most likely depth (n,), and the variance (n - 2,) of its second differences, all in units of the noise.
 
-    A machine goes straight and turns sharply. If that leaves more than noise, a hand has moved the needle.
+    A machine goes straight and turns sharply. If that leaves more than noise, or bends all along, a hand has moved the
+    needle: sharp turns follow a tremor in noise as large, and seem more certain than they are.
     """
     ones = np.ones(len(depth))
     quiet, variances = _straight(depth, ones)
-    if effective_samples(depth - quiet) < WHITE * len(depth):
+    if effective_samples(depth - quiet) < WHITE * len(depth) or _bends(quiet):
         variances = _of_hand(depth)
         quiet = _solved(variances, ones, depth)
     return quiet, variances
+
+
+def _bends(quiet: Array) -> bool:
+    """Whether a motion (n,) bends in more samples than those of turns."""
+    bends = np.sort(np.abs(np.diff(quiet, 2)))[::-1]
+    most = int(np.searchsorted(np.cumsum(bends), MOSTLY * bends.sum()))
+    return most > max(TURNS, BENT * len(bends))
 
 
 def _straight(depth: Array, weights: Array) -> tuple[Array, Array]:

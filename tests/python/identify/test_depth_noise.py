@@ -132,9 +132,21 @@ def test_a_stated_noise_counts():
     assert str(known) == "depth_noise 8e-06 m, stated"
 
 
-def test_a_small_noise_counts_if_it_is_stated():
-    shaken = by_hand(1, 30e-6, 200, 0.3e-6)
-    assert with_quiet_depth(shaken)[1] == 0.0 and with_quiet_depth(shaken, 0.3e-6)[1] == 0.3e-6
+def test_a_small_noise_counts_beside_the_tremor_of_a_hand():
+    for shaken, noise in ((by_hand(1, 30e-6, 200, 0.3e-6), 0.3e-6), (by_hand(1, 100e-6, 200, 2e-6), 2e-6)):
+        assert with_quiet_depth(shaken)[1] == pytest.approx(noise, rel=0.15)
+        assert with_quiet_depth(shaken, noise)[1] == noise
+
+
+def test_a_tremor_that_noise_hides_is_not_taken_for_the_turns_of_a_machine():
+    """Its residuals are white, too, but its depth is then known far less well."""
+    exact = by_hand(1, 30e-6, 200)
+    quiet, noise = with_quiet_depth(
+        replace(exact, depth=exact.depth + 5e-6 * np.random.default_rng(1).normal(size=len(exact)))
+    )
+    error = np.sqrt(np.mean((quiet.depth - exact.depth) ** 2))
+    assert noise == pytest.approx(5e-6, rel=0.15)
+    assert error < 1.15 * np.sqrt(np.mean(quiet.depths.var(axis=0)))
 
 
 def test_the_last_fit_has_the_weights_of_its_own_model_also_in_a_short_trace(monkeypatch):
