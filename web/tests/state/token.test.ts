@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { takeToken } from "../../src/state/remembered.ts";
+import { remember, remembered, takeToken } from "../../src/state/remembered.ts";
 
 const ADDRESS = "http://127.0.0.1:8765/?a=1&token=s3cret#part";
 
@@ -40,4 +40,16 @@ describe("the token of a run", () => {
   it("is empty on a page that was opened without one", () => {
     expect(load("http://127.0.0.1:8765/", tab()).token).toBe("");
   });
+});
+
+it("an answer is found again among other cookies, and a missing one is null", () => {
+  const jar = { cookie: "other=1; punctura_soundly=off; punctura_sound=on" };
+  expect(remembered("sound", jar)).toBe("on");
+  expect(remembered("tour", jar)).toBeNull();
+});
+
+it("an answer is kept for all ports of this computer, for a year", () => {
+  const jar = { cookie: "" };
+  remember("sound", "off", jar);
+  expect(jar.cookie).toBe("punctura_sound=off; path=/; max-age=31536000; samesite=strict");
 });

@@ -1,5 +1,7 @@
-import { expect, test } from "vitest";
+import { expect, it, test } from "vitest";
+import { lossText, stateWord, verdict } from "../../../src/controls/exercises/goals.ts";
 import { clockText, heldShare, showGoal } from "../../../src/controls/exercises/task.ts";
+import { titleAmong } from "../../../src/controls/exercises/title.ts";
 import { App } from "../../../src/state/app.ts";
 import type { ExerciseOverview, ExerciseStatus, SceneView } from "../../../src/wire/messages.ts";
 import { FakeEngine } from "../support/fake_engine.ts";
@@ -55,4 +57,50 @@ test("the view gets the goal of the running exercise, and none of a blind one", 
   app.exercise.value = running({ blind: true });
   showGoal(app, of);
   expect(app.goal.value).toBeNull();
+});
+
+const goals = (...states: ("met" | "missed" | "not measured")[]) => states.map((state) => ({ text: "a goal", state }));
+
+const loss = (drop: number, needed: number | null = 0.1) => ({ before: 0.5, after: 0.5 - drop, needed });
+
+test("a pass of an earlier version with a goal that was not measured says so", () => {
+  expect(verdict({ passed: true, withheld: "", goals: goals("met", "met") })).toBe("✓ passed");
+  expect(verdict({ passed: true, withheld: "", goals: goals("met", "not measured") })).toBe(
+    "✓ passed, but not everything was measured",
+  );
+  expect(verdict({ passed: false, withheld: "", goals: goals("missed", "not measured") })).toBe("✕ not passed");
+});
+
+test("a verdict that is withheld says why", () => {
+  expect(verdict({ passed: false, withheld: "the force was off", goals: goals("met", "met") })).toBe(
+    "◐ not judged as passed: the force was off",
+  );
+});
+
+test("a goal that is neither met nor missed is not decided", () => {
+  expect((["open", "met", "not measured"] as const).map(stateWord)).toEqual(["not decided", "met", "not measured"]);
+});
+
+test("a force that rises is no loss of resistance", () => {
+  expect(lossText(loss(-0.19, null))).toBe("none");
+  expect(lossText(loss(-0.19))).toBe("none; 0.1 N needed");
+  expect(lossText(loss(0.62, null))).toBe("0.62 N");
+});
+
+const known = [
+  { name: "venipuncture", title: "Venipuncture" },
+  { name: "mine", title: "Venipuncture" },
+  { name: "epidural", title: "Epidural" },
+];
+
+it("adds the name where two exercises have one title, and nowhere else", () => {
+  expect(known.map((one) => titleAmong(one, known))).toEqual([
+    "Venipuncture (venipuncture)",
+    "Venipuncture (mine)",
+    "Epidural",
+  ]);
+});
+
+it("tells the results of a removed exercise from those of one that is there", () => {
+  expect(titleAmong({ name: "gone", title: "Epidural" }, known)).toBe("Epidural (gone)");
 });

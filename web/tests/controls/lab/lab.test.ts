@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { sceneForm } from "../../../src/controls/editor/fields.ts";
 import { drawLab, labCurves, quantitiesOf } from "../../../src/controls/lab/drawing.ts";
+import { plateauWords, slopeWords } from "../../../src/controls/lab/estimate.ts";
 import { fieldWords, runWords, shortNames, shownUnit } from "../../../src/controls/lab/fields.ts";
 import { bundlePath, compute, queryOf } from "../../../src/controls/lab/job.ts";
 import { choose } from "../../../src/controls/lab/pick.ts";
@@ -139,5 +140,16 @@ describe("a comparison", () => {
     expect(drawn(["mean"])).not.toContain('fill-opacity="0.18"');
     expect(lines(drawn([], "time"))).toBe(4); // the force, and the depth below it
     expect(drawn([], "time")).toContain(">time since the first contact (s)<");
+  });
+});
+
+describe("the live estimate", () => {
+  it("is told with units and the half of its 95 % interval", () => {
+    expect(slopeWords({ value: 212.34, half: 11.8 })).toBe("0.212 ± 0.012 N/mm");
+    expect(plateauWords({ value: 0.41024, half: 0.0021 })).toBe("0.410 ± 0.002 N");
+  });
+
+  it("is a dash while it is not known", () => {
+    expect([slopeWords(null), plateauWords(null)]).toEqual(["–", "–"]);
   });
 });

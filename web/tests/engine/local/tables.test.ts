@@ -1,4 +1,5 @@
 import { expect, it } from "vitest";
+import { BlockClock } from "../../../src/engine/local/clock.ts";
 import { withDefaults } from "../../../src/engine/local/defaults.ts";
 import { tomlOf } from "../../../src/engine/local/files.ts";
 
@@ -61,4 +62,32 @@ it("fills in the defaults of the schema, and no optional table", () => {
     servo: { rate_hz: 2000, low_pass_hz: 300 },
     syringe: { bore_mm: 9, air_mL: 0 },
   });
+});
+
+it("makes every tick of its rate, in blocks of any length", () => {
+  const clock = new BlockClock(1600);
+  let ticks = clock.due(50);
+  for (let now = 50; now < 10_050; now += 7.3) ticks += clock.due(now);
+  ticks += clock.due(10_050);
+  expect(ticks).toBe(16_000);
+  expect(clock.leftOut).toBe(0);
+});
+
+it("leaves out ticks after a long pause, and counts them", () => {
+  const clock = new BlockClock(1600);
+  clock.due(0);
+  expect(clock.due(1000)).toBe(160);
+  expect(clock.leftOut).toBe(1440);
+  expect(clock.due(1010)).toBe(16);
+  expect(clock.leftOut).toBe(1440);
+});
+
+it("counts nothing as left out while nobody looks at the page", () => {
+  const clock = new BlockClock(1600);
+  clock.due(0);
+  expect(clock.due(10)).toBe(16);
+  clock.sleep();
+  expect(clock.due(60_000)).toBe(0);
+  expect(clock.due(60_010)).toBe(16);
+  expect(clock.leftOut).toBe(0);
 });
