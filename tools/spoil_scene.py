@@ -3,9 +3,11 @@
 import random
 import re
 from collections.abc import Callable
+from pathlib import Path
 
 from punctura.scene.ready import scene_path
 
+WIDE = (Path(__file__).resolve().parents[1] / "tests/python/scene/wide.toml").read_text(encoding="utf-8")
 # Valid scenes in different TOML notations.
 SEEDS = (
     scene_path("k06-fig12").read_text(encoding="utf-8"),
@@ -26,53 +28,10 @@ membrane = [
     ], inward_normal = [0, -2, 0] },
 ]
 """,
-    """
-name = "beyond K06"
-
-[needle]
-diameter_mm = 1.08
-tip_angle_rad = 0.28
-
-[coupling]
-stiffness_N_per_mm = 0.4
-damping_Ns_per_mm = 0.001
-relaxation_stiffness_N_per_mm = [0.1, 0.05]
-relaxation_time_constant_s = [0.2, 3]
-
-[servo]
-sub_steps = 4
-
-[[membrane]]
-name = "grip"
-stiffness_N_per_mm = 0.57
-precompression_N = 0.41
-friction = 0.2
-thickness_mm = 1.0
-point_mm = [0, 0, 0]
-inward_normal = [0, -1, 0]
-grip = "table"
-grip_opening_mm = [0, 0.5, 1]
-grip_force_N = [0.4, 0.7, 1.6]
-tip_length_mm = 3
-tail_length_mm = 1.2
-tail_floor = 0.3
-cutting_N = 0.2
-set = 0.25
-
-[[membrane]]
-name = "profile"
-stiffness_N_per_mm = 0.57
-precompression_N = 0.41
-friction = 0.2
-thickness_mm = 1
-point_mm = [0, -6, 0]
-inward_normal = [0, -1, 0]
-grip = "exponential"
-growth_per_mm = 0.9
-profile_depth_mm = [0, 1, 2.5]
-profile_lower_N = [0, -0.4, -0.2]
-profile_upper_N = [0, 0.05, 0.1]
-""",
+    WIDE,
+    WIDE.replace('"exponential"', '"table"').replace(
+        "growth_per_mm = 0.9", "grip_opening_mm = [0, 0.5, 1]\ngrip_force_N = [0.4, 0.7, 1.6]"
+    ),
 )
 
 VALUES = (

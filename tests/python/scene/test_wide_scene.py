@@ -1,5 +1,7 @@
 """Scenes beyond K06: read, run, recorded, replayed, followed by events and drawn."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from punctura import Insertion, MaxwellBranch, Tissue, load_scene, save_scene
@@ -8,51 +10,12 @@ from punctura.events import crossing, find_events
 from punctura.simulation import Experiment, Strokes
 
 DOWN = [0.0, -1.0, 0.0]
-WIDE = """
-name = "wide"
-[needle]
-diameter_mm = 1.08
-tip_angle_rad = 0.28
-[coupling]
-stiffness_N_per_mm = 0.4
-damping_Ns_per_mm = 0.001
-relaxation_stiffness_N_per_mm = [0.1, 0.05]
-relaxation_time_constant_s = [0.2, 3]
-[servo]
-sub_steps = 2
-[[membrane]]
-name = "wall"
-stiffness_N_per_mm = 0.57
-precompression_N = 0.41
-friction = 0.2
-thickness_mm = 0.5
-point_mm = [0, 0, 0]
-inward_normal = [0, -1, 0]
-grip = "exponential"
-growth_per_mm = 0.9
-tip_length_mm = 3
-tail_length_mm = 1.2
-tail_floor = 0.3
-cutting_N = 0.2
-set = 0.25
-[[membrane]]
-name = "profile"
-stiffness_N_per_mm = 0.57
-precompression_N = 0.41
-friction = 0.2
-thickness_mm = 1
-point_mm = [0, -6, 0]
-inward_normal = [0, -1, 0]
-profile_depth_mm = [0, 1, 2.5, 4]
-profile_lower_N = [0, -0.4, -0.9, -0.2]
-profile_upper_N = [0, 0.05, 0.1, 0.1]
-"""
+WIDE = Path(__file__).with_name("wide.toml")
 
 
 @pytest.fixture
-def scene(tmp_path):
-    (tmp_path / "wide.toml").write_text(WIDE)
-    return load_scene(tmp_path / "wide.toml")
+def scene():
+    return load_scene(WIDE)
 
 
 def test_a_wide_scene_is_read_in_si_and_saved_again(scene, tmp_path):
