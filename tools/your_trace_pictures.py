@@ -22,6 +22,7 @@ from punctura.identify.doubts import doubts
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.intervals import estimates
 from punctura.identify.model import Model, extensions
+from punctura.identify.moving_tissue import moving_tissue
 from punctura.identify.needle_tolerance import doubt_of_needle
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.rig import UNKNOWN
@@ -111,6 +112,17 @@ def wrong_needle(axes: Axes, below: Axes) -> None:
     print(*doubt_of_needle(estimates(free), stated, UNKNOWN), sep="\n")
     fits = {"K06, one wall": fitted(trace, PLAIN, stated), "with a tip length of its own": free}
     draw_two(axes, below, trace, "depth, mm", fits)
+
+
+def breathing(axes: Axes, below: Axes) -> None:
+    """The tissue swings by 0.1 mm, so the needle is that much deeper or less deep in it."""
+    time, depth = motion(hold=4.0)
+    swung = depth + 1e-4 * np.sin(2 * np.pi * 0.5 * time)
+    trace = noisy(time, depth, law(time, swung))
+    fits = {"K06, one wall": fitted(trace), "along the depth in the tissue": fitted(replace(trace, depth=swung))}
+    still = fits["K06, one wall"]
+    print(moving_tissue(still, still, doubts(trace, segment(trace), still, ()).explained))
+    draw_two(axes, below, trace, "time, s", fits)
 
 
 def draw_fit(axes: Axes, below: Axes, make: Callable[[], Trace]) -> None:
@@ -252,7 +264,9 @@ def main() -> None:
         save(figure, out / f"your-trace-{name}.svg")
     two = {"height_ratios": [2, 1], "bottom": 0.15, "hspace": 0.12}
     drawn = {name: partial(draw_fit, make=make) for name, make in FITS.items()}
-    for name, draw_on in (drawn | {"drift": drift, "relaxation": relaxation, "needle": wrong_needle}).items():
+    for name, draw_on in (
+        drawn | {"drift": drift, "relaxation": relaxation, "needle": wrong_needle, "breathing": breathing}
+    ).items():
         figure = Figure(figsize=(6.8, 3.0))
         print(f"\n{name}")
         draw_on(*figure.subplots(2, 1, sharex=True, gridspec_kw=grid | two))

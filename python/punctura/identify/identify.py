@@ -1,7 +1,7 @@
 """Identification of a trace: from force against depth to membranes with intervals."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.late_sensor import late_words, not_told_apart
 from punctura.identify.model import Model
 from punctura.identify.moves import with_contacts_moved, with_pops_moved
+from punctura.identify.moving_tissue import moving_tissue
 from punctura.identify.needle_tolerance import doubt_of_needle, with_tolerance
 from punctura.identify.noise import effective_samples
 from punctura.identify.parameters import LATE, Parameters
@@ -181,6 +182,8 @@ def _identified(
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
     effective = effective_samples(plain.residuals, len(plain.u))
     doubt = doubts(trace, segments, plain, choice.current.extensions, air)
+    moving = moving_tissue(choice.plain.fit, choice.current.fit, doubt.explained)
+    doubt = doubt if moving is None else replace(doubt, causes=(moving,))  # all else may follow from it
     whitened = final.misfit.whitening is not None
     advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok, whitened)
     advice = (

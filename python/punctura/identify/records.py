@@ -63,7 +63,7 @@ class PlaceRecord(TypedDict):
 
 
 class CauseRecord(TypedDict):
-    """What could explain what is left: barbs, asymmetric_way_out, rate, insertion, ripple, depth, depth_noise."""
+    """What could explain what is left, by its kind in docs/identify.md: barbs, ripple, depth ..."""
 
     kind: str
     share: float
