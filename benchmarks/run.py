@@ -4,7 +4,7 @@ Measures the model's ns per tick, compared with a hand-written loop and a NumPy 
 servo loop, compared with cyclictest, and many trials at once, in lanes and on two threads.
 
 python benchmarks/run.py [--check] [--json FILE] [--pictures FOLDER] [--seconds S] [--batch-seconds S]
-    [--wakeup-seconds S]
+    [--wakeup-seconds S] [--only-batches]
 """
 
 import argparse
@@ -87,8 +87,9 @@ def measure(program: Path, seconds: float) -> dict[str, Any]:
 
 def report(result: dict[str, Any], ratios: list[Ratio], json_file: Path | None, check: bool) -> int:
     """Prints and writes the results. Returns the exit status: 1 if `check` is set and a target is missed, else 0."""
-    print("\n".join(table(result)), end="\n\n")
-    print("\n".join(verdicts(ratios)))
+    if "rows" in result:
+        print("\n".join(table(result)), end="\n\n")
+        print("\n".join(verdicts(ratios)))
     if batches := result.get("batch"):
         print("\n" + "\n".join(batch_table(batches)))
     if wakeups := result.get("wakeups"):
@@ -126,23 +127,27 @@ def main(arguments: list[str] | None = None) -> int:
         help=f"seconds for servo loop and cyclictest in each of {len(CONDITIONS)} conditions; 0 skips them "
         "(default %(default)s)",
     )
+    parser.add_argument("--only-batches", action="store_true", help="measure the rows of many trials alone")
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw the rows of many trials as SVG files")
     options = parser.parse_args(arguments)
     try:
-        program = build(ROOT / "build/bench")
-        print("Measuring ticks, one dot per row:", file=sys.stderr)
-        result = measure(program, options.seconds)
+        if options.only_batches:
+            result = {"machine": machine(), "versions": versions()}
+        else:
+            program = build(ROOT / "build/bench")
+            print("Measuring ticks, one dot per row:", file=sys.stderr)
+            result = measure(program, options.seconds)
         if options.batch_seconds > 0:
             print("Measuring many trials, one dot per row:", file=sys.stderr)
             result["batch"] = measure_batches(build(ROOT / "build/bench", "bench_batch"), options.batch_seconds)
-        if options.wakeup_seconds > 0:
+        if options.wakeup_seconds > 0 and not options.only_batches:
             wakeups = build(ROOT / "build/bench", "bench_wakeups")
             print("Measuring wake-ups, one dot per condition:", file=sys.stderr)
             result["wakeups"] = measure_wakeups(wakeups, options.wakeup_seconds)
     except ProgramError as error:
         print(error, file=sys.stderr)
         return 3
-    status = report(result, all_ratios(result), options.json, options.check)
+    status = report(result, all_ratios(result) if "rows" in result else [], options.json, options.check)
     if options.pictures and "batch" in result:
         draw(result["batch"], options.pictures)
     return status
