@@ -64,7 +64,9 @@ class Keys(Mouse):  # presses Tab until the page names the keys, and then holds 
 
     def move(self, down: bool, until: Locator) -> None:
         key = "ArrowDown" if down else "ArrowUp"
+        end = time.monotonic() + PATIENCE / 1e3
         while not until.is_visible():
+            assert time.monotonic() < end, f"the page never said it, but: {self.page.locator('p').all_inner_texts()}"
             self.page.keyboard.down(key)  # again while it is down: the keyboard's repeat
             self.page.wait_for_timeout(STEP_MS)
         self.page.keyboard.up(key)

@@ -1,7 +1,7 @@
 """The result of an attempt: one thing to change, its moment again, and pages that look on."""
 
 import pytest
-from person import opened, own_exercise, push, ready, tab, whole_at
+from person import opened, own_exercise, push, ready, tab, view, whole_at
 from playwright.sync_api import expect
 from studio_process import StudioProcess
 
@@ -25,6 +25,33 @@ def lose(page):
         push(page, "Shift+ArrowDown", 3)
         if page.get_by_role("dialog").count():
             break
+
+
+def test_a_key_that_is_still_held_when_the_result_comes_does_not_scroll_it(page):
+    ready(page)
+    tab(page, "Exercises")
+    page.locator("article.exercise", has_text=TITLE).get_by_role("button", name="Start").click()
+    expect(page.locator(".running")).to_be_visible()
+    page.set_viewport_size({"width": 720, "height": 450})
+    dialog = page.get_by_role("dialog")
+    view(page).focus()
+    for _ in range(400):
+        page.keyboard.down("ArrowDown")
+        page.wait_for_timeout(50)
+        if dialog.count():
+            break
+    for _ in range(20):
+        page.keyboard.down("ArrowDown")
+    page.wait_for_timeout(200)  # a scroll is smooth
+    assert dialog.evaluate("e => e.scrollTop") == 0
+    page.keyboard.up("ArrowDown")
+    for _ in range(400):  # pressed for the dialog
+        page.keyboard.press("ArrowDown")
+        page.wait_for_timeout(50)
+        if dialog.evaluate("e => e.scrollTop"):
+            break
+    else:
+        raise AssertionError("the dialog does not scroll")
 
 
 def test_the_coach_shows_its_moment_and_a_projector_and_a_phone_that_look_on_follow(page, studio, browser):

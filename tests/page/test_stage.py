@@ -198,6 +198,8 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
     running = page.locator(".running")
     expect(running.locator(".instruction")).to_be_hidden()  # it is said once
     expect(view(page)).to_be_focused()
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    none_found(page, "the stage in an exercise")
     for size in SIZES:
         whole_at(page, size, running.get_by_role("timer"), running.get_by_role("button", name="End"))
         page.wait_for_function(WORDS_WHOLE)

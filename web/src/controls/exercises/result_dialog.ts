@@ -14,6 +14,8 @@ import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
 import { BEFORE, traceDrawing } from "./trace_drawing.ts";
 
+const STILL_MS = 1000; // after the result has come, a key that is pressed was meant for the needle
+
 /**
  * The dialog of a result: verdict, reasons, measures and a drawing of the attempt. `again` starts a new attempt;
  * `changed` is called after the expert's run was changed.
@@ -93,6 +95,7 @@ export function openResult(
   document.body.append(dialog);
   dialog.showModal();
   dialog.scrollTop = 0; // the focus of its title may have scrolled it
+  unscrolled(dialog);
   let entry: RecordingEntry | undefined;
   /** The worst moment in the view, and this dialog again after it. */
   const showWorst = async (time: number): Promise<void> => {
@@ -130,6 +133,16 @@ export function openResult(
         });
       });
     });
+  });
+}
+
+/** A hand that still pushes by a key when the result comes must not scroll past its sentence. */
+function unscrolled(dialog: HTMLElement): void {
+  const opened = performance.now();
+  let meant = false; // the first key that is pressed here for the dialog
+  dialog.addEventListener("keydown", (event) => {
+    meant ||= !event.repeat && performance.now() - opened > STILL_MS;
+    if (!meant && /^(Arrow|Page| $)/.test(event.key)) event.preventDefault();
   });
 }
 

@@ -14,7 +14,7 @@ const AROUND = 2 * Math.PI * RADIUS;
  * shows its title again, when the list of exercises has been read.
  */
 export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => string): () => void {
-  const title = element("h3", {});
+  const title = element("h2", {});
   const instruction = element("p", { class: "instruction", role: "status" });
   const goals = element("div", { class: "task-goals" });
   const clock = element("p", { class: "clock", role: "timer", "aria-live": "off" });
