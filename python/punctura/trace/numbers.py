@@ -93,7 +93,8 @@ def _numbers(
     first = start if contact is None else contact
     peak = first + int(np.argmax(trace.force[first:end]))
     deepest = float(trace.depth[start:last].max())
-    near = trace.depth[first:end] >= deepest - LAST * (deepest - trace.depth[first])
+    inward = trace.depth[first:end]  # it may creep deeper in a rest
+    near = inward >= inward.max() - LAST * (inward.max() - inward[0])
     outward = trace.depth[end - 1] - trace.depth[last - 1] > LAST * (deepest - trace.depth[first])
     way_out = slice(end - 1, last)
     return InsertionNumbers(

@@ -27,6 +27,7 @@ from punctura.trace.trace import Finding, Trace, TraceError, Unstated
 Array = NDArray[np.float64]
 
 _LATE = 1e4  # s: a time of day or since 1970, which then begins at 0
+_BEGINS, _INSIDE = 3.0, 0.1  # usual steps of time or depth; of the range of the depth, from where the needle began
 
 
 def read_trace(
@@ -173,8 +174,31 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
 
 
+def _joined(held: dict[str, Array], found: list[Finding]) -> dict[str, Array]:
+    """The time (n,) of a machine that begins each motion at 0, one after the other, where the needle goes on inside.
+
+    In air, the next motion may be that of another specimen.
+    """
+    time, depth = held["time"], held.get("depth")
+    pace = np.diff(time)
+    back = np.flatnonzero(pace < 0) + 1
+    if depth is None or not len(back) or len(time) < 5:
+        return held
+    usual, way, span = float(np.median(pace)), np.abs(np.diff(depth)), float(np.ptp(depth))
+    begins = np.abs(time[back] - time[0]) <= _BEGINS * usual
+    goes_on = way[back - 1] <= _BEGINS * float(np.percentile(way, 90))
+    inside = np.abs(depth[back] - depth[0]) > _INSIDE * span
+    if not (begins & goes_on & inside).all():
+        return held
+    steps = np.where(pace < 0, usual, pace)
+    text = f"time begins again {len(back)} times, first at sample {int(back[0]) + 1}, and the depth goes on there"
+    found.append(Finding("time_begins_again", f"{text}: the parts are taken for one motion, without a pause", True))
+    return {**held, "time": time[0] + np.concatenate(([0.0], np.cumsum(steps)))}
+
+
 def _with_growing_time(held: dict[str, Array], found: list[Finding], needed: bool) -> dict[str, Array]:
     """Leaves out samples whose time does not grow, and says so; a time that is too coarse as a whole if not needed."""
+    held = _joined(held, found)
     time = held["time"]
     grows = np.concatenate(([True], time[1:] > np.maximum.accumulate(time)[:-1]))
     if grows.all():

@@ -219,6 +219,19 @@ def test_a_column_that_never_changes_is_severe(tmp_path, name, what):
     assert [finding.kind for finding in severe] == ["constant"] and f"the {what} is the same" in severe[0].text
 
 
+def test_motions_whose_time_begins_again_inside_are_one_trace(tmp_path):
+    made = trace(noise=2e-3)
+    turn = int(np.argmax(made.depth)) + 50
+    parted = np.concatenate((made.time[:turn], made.time[turn:] - made.time[turn]))
+    rows = np.column_stack([parted, 1e3 * made.depth, made.force])
+    path = tmp_path / "two.csv"
+    np.savetxt(path, rows, delimiter=",", header="time_s,depth_mm,force_N", comments="", fmt="%.8g")
+    read = read_trace(path)
+    assert kinds(read) == {"time_begins_again"} and read.time == pytest.approx(made.time - made.time[0], abs=1e-6)
+    np.savetxt(path, np.vstack((rows, rows)), delimiter=",", header="time_s,depth_mm,force_N", comments="")
+    assert "time_begins_again" not in kinds(read_trace(path))  # in air another specimen may follow
+
+
 def test_time_that_goes_back_is_named(tmp_path):
     made = trace()
     time = made.time.copy()

@@ -13,6 +13,13 @@ from punctura.trace.turns import noise_of, turning_points
 from traces import force_of, motion, trace
 
 
+def test_a_slow_way_in_before_a_fast_way_back_is_no_rest():
+    time = np.arange(0, 272, 0.1)
+    depth = np.interp(time, [0, 240, 268, 272], [0, 15e-6, 6e-6, -8e-6])
+    force = np.interp(depth, [0, 15e-6], [0, 1e-3])
+    assert segment(Trace(depth, force, time)).strokes[0].kind == "in"
+
+
 def test_contact_and_pop_are_found_where_the_membrane_is():
     found = segment(measured := trace())
     assert measured.depth[found.contact] == pytest.approx(5e-3, abs=0.2e-3)
