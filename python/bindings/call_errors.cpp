@@ -1,5 +1,5 @@
-// Every call of this module: it is counted for the end of the program, and wrong arguments are told in plain words, in
-// place of nanobind's list of signatures.
+// Every call of this module: it is counted for the end of the program, it locks its object where Python has no GIL, and
+// wrong arguments are told in plain words, in place of nanobind's list of signatures.
 #include <array>
 #include <string_view>
 
@@ -49,9 +49,16 @@ void explain(PyObject* function, PyObject* const* given, std::size_t count, PyOb
 
 template <std::size_t kind>
 PyObject* call(PyObject* function, PyObject* const* given, std::size_t flags_and_count, PyObject* words) {
+  const std::size_t count = flags_and_count & 0xffffffff;  // the upper bits are flags
   const InCall in_call;
+#ifdef NB_FREE_THREADED
+  // Like the GIL, Python opens this lock while the thread waits and in WithoutLock. Therefore nothing here can wait for
+  // itself, and what holds with the GIL, such as OneThread, holds with this lock.
+  std::optional<nb::ft_object_guard> object;
+  if (count > 0 && nb::inst_check(given[0])) object.emplace(given[0]);
+#endif
   PyObject* result = calls[kind](function, given, flags_and_count, words);
-  if (!result) explain(function, given, flags_and_count & 0xffffffff, words);  // the upper bits are flags
+  if (!result) explain(function, given, count, words);
   return result;
 }
 

@@ -58,7 +58,9 @@ struct BatchFinder : EventFinder, OneThread {
     parameters.fields(rate);
   }
   nb::tuple arguments() const {
-    return nb::make_tuple(scene(), rate, waits_for_scene() ? nb::cast(newest_scene()) : nb::none());
+    // Copies: another thread may change the scene while Python makes the tuple.
+    const std::optional<Scene> next = waits_for_scene() ? std::optional(newest_scene()) : std::nullopt;
+    return nb::make_tuple(Scene(scene()), rate, next ? nb::cast(*next) : nb::none());
   }
 };
 
@@ -105,10 +107,9 @@ Object<"list[FoundEvent]"> add(BatchFinder& finder,
 
   std::vector<MembraneRecord> records(m);
   std::vector<Found> found;
-  finder.must_rest();
+  const OneThread::Running running(finder);
   const BatchFinder before = finder;
   {
-    const OneThread::Running running(finder);
     const WithoutLock without;
     for (std::size_t i = 0; i < n; ++i, ++finder.ticks) {
       for (std::size_t j = 0; j < m; ++j)

@@ -76,8 +76,8 @@ class Fleet : public OneThread {
     return nb::make_tuple(given_.axis, given_.plant, given_.hand, given_.threads, given_.instructions);
   }
   /// For each trial (scene, start, seed, speeds, ticks, begun), as in TrialHistory.
-  nb::list histories() const {
-    must_rest();
+  nb::list histories() {
+    const Running running(*this);
     nb::list trials;
     for (std::size_t i = 0; i < size(); ++i) {
       const batch::TrialHistory& h = fleet_.history(i);
@@ -184,7 +184,7 @@ void bind_fleet(nb::module_& m) {
       .def(
           "__reduce__",
           [](nb::handle self) {
-            const auto& fleet = nb::cast<const Fleet&>(self);
+            auto& fleet = nb::cast<Fleet&>(self);
             return nb::make_tuple(nb::module_::import_("punctura.restore").attr("restored"),
                                   nb::make_tuple(self.type(), fleet.arguments(), fleet.histories()));
           },

@@ -14,7 +14,7 @@ namespace punctura::bindings {
 /// ends the program waits until no other thread is in a call of this module. From then on a call that releases the GIL
 /// does not end. A short call, which does not release it, works until the exit: a handler of atexit can wait for it.
 ///
-/// The counts change only while the GIL is held, apart from `taking_`.
+/// Where Python has no GIL, a thread is attached where this file says that it holds the GIL.
 class EndOfProgram {
  public:
   /// Call in the thread that ends the program (registered with atexit).
@@ -23,7 +23,7 @@ class EndOfProgram {
     ends_.store(true);
     const int own = depth_ > 0 ? 1 : 0;
     // Limited, because a function of the user, such as `progress`, may never return.
-    for (int ms = 0; ms < 2000 && (taking_.load() > 0 || calls_ > own); ++ms) {
+    for (int ms = 0; ms < 2000 && (taking_.load() > 0 || calls_.load() > own); ++ms) {
       PyThreadState* state = PyEval_SaveThread();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       PyEval_RestoreThread(state);
@@ -33,7 +33,7 @@ class EndOfProgram {
   /// Call in the child of a fork, where the other threads of the parent do not exist.
   static void begin_child() noexcept {
     taking_.store(0);
-    calls_ = depth_ > 0 ? 1 : 0;
+    calls_.store(depth_ > 0 ? 1 : 0);
   }
 
  private:
@@ -55,7 +55,7 @@ class EndOfProgram {
 
   inline static std::atomic<bool> ends_{false};
   inline static std::atomic<int> taking_{0};  ///< threads that take the GIL back now
-  inline static int calls_ = 0;  ///< threads in a call of this module that have not released the GIL with WithoutLock
+  inline static std::atomic<int> calls_{0};   ///< threads in a call of this module, and not in WithoutLock
   inline static thread_local int depth_ = 0;  ///< calls of this module in this thread, one inside the other
   inline static std::thread::id last_{};
 };

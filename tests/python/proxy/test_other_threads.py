@@ -1,6 +1,9 @@
 """An object whose run() is at work gives no half-made values to another thread or to its progress function."""
 
 import copy
+import subprocess
+import sys
+import sysconfig
 import threading
 
 import numpy as np
@@ -99,3 +102,39 @@ def test_a_repr_hides_no_other_error():
 
     with pytest.raises(RuntimeError, match="the info is broken"):
         repr(Broken(500))
+
+
+WITHOUT_GIL = bool(sysconfig.get_config_var("Py_GIL_DISABLED"))
+
+
+@pytest.mark.skipif(not WITHOUT_GIL, reason="this Python has a GIL")
+def test_a_python_without_gil_stays_without():
+    code = "import sys, punctura, punctura.live, punctura.batches; assert not sys._is_gil_enabled()"
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_a_state_that_another_thread_takes_is_of_one_tick():
+    proxy = insertion()[0]
+    depths = np.linspace(-1e-3, 9e-3, 20_000)
+    own = pn.Insertion(SCENE)
+    right = {own.state}
+    for depth in depths:
+        own.step((0, -depth, 0), (0, -1, 0))
+        right.add(own.state)
+    taken, over = set(), threading.Event()
+
+    def states():
+        while not over.is_set():
+            taken.add(proxy.state)
+
+    readers = [threading.Thread(target=states) for _ in range(3)]
+    for reader in readers:
+        reader.start()
+    try:
+        for depth in depths:
+            proxy.step((0, -depth, 0), (0, -1, 0))
+    finally:
+        over.set()
+        for reader in readers:
+            reader.join()
+    assert taken <= right and proxy.state == own.state
