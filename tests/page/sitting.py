@@ -102,10 +102,11 @@ def act(page: Page) -> int:
 
 
 def main(kills: int = 10, seed: int = 1) -> None:
-    draw = random.Random(seed)
+    draw, trials = random.Random(seed), TRIALS + kills  # so that some are left after most of the kills
     with tempfile.TemporaryDirectory() as place, sync_playwright() as playwright:
         folder, browser = Path(place), launch(playwright)
-        (folder / "mine.toml").write_text(PROTOCOL)  # no session: the page asks for consent
+        text = PROTOCOL.replace(f"total = {TRIALS}", f"total = {trials}")
+        (folder / "mine.toml").write_text(text)  # no session: the page asks for consent
         studio = sitting(folder)
         try:
             with opened(browser, studio.url, bench=False) as page:
@@ -126,15 +127,15 @@ def main(kills: int = 10, seed: int = 1) -> None:
                         answers.append(act(page))
                     kept = len(on_disk(folder))
                     assert kept >= max(answers)
-                    print(f"kill {kill + 1}: {kept} of {TRIALS} trials are on the disk", flush=True)
+                    print(f"kill {kill + 1}: {kept} of {trials} trials are on the disk", flush=True)
                     longest *= 1.5 if kept == before else 0.8  # so every second kill comes after an answer
                     studio = sitting(folder, studio.port)
                 while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
                     act(page)
         finally:
             studio.end()
-        assert len(on_disk(folder)) == TRIALS
-    print(f"{kills} kills, {TRIALS} answered trials, none lost, order as planned")
+        assert len(on_disk(folder)) == trials
+    print(f"{kills} kills, {trials} answered trials, none lost, order as planned")
 
 
 if __name__ == "__main__":

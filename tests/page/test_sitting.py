@@ -1,7 +1,10 @@
 """A participant's session at the page, by keys alone."""
 
+import re
+
 from person import opened
 from playwright.sync_api import expect
+from punctura.perception import Observer, Simulation, load_protocol, write_report
 from senses import STUBS
 from sitting import answered, on_disk, sentence, sitting, stroke
 
@@ -48,3 +51,13 @@ def test_nothing_but_the_force_tells_of_a_pop_though_the_browser_remembers_bench
         stroke(page)
         sentence(page, "Did it pop?")
         assert page.evaluate("[heard, rumbled]") == [["friction"], []]  # a noise whose volume stays 0
+
+
+def test_a_report_of_three_people_prints_on_one_page(browser, tmp_path):
+    simulation = Simulation(load_protocol("pop-jnd"), Observer())
+    for name in ("P01", "P02", "P03"):
+        simulation.run_on_disk(tmp_path, name, 1)
+    write_report(simulation.protocol, tmp_path)
+    with browser.new_page() as page:
+        page.goto((tmp_path / "report.html").as_uri())
+        assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) == 1

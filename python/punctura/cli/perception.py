@@ -149,7 +149,7 @@ def simulate(
 
 @command.command()
 def analyse(protocol: File, out: Out = None, as_json: Json = False) -> None:
-    """Analyses all sessions of a folder: report.md, results.json, trials.csv, trials.parquet, dictionary.csv."""
+    """Analyses all sessions of a folder: report.html, results.json, trials.csv, trials.parquet, dictionary.csv."""
     from punctura.perception import load_protocol
 
     _analysed(load_protocol(protocol), _folder(protocol, out, there=True), as_json)
@@ -164,7 +164,7 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
         return
     report = (folder / "report.md").read_text(encoding="utf-8")
     typer.echo(re.split(r"\n(?:## |!\[)", report, maxsplit=1)[0].rstrip())  # without d' at each level and the picture
-    typer.echo(str(folder / "report.md"))
+    typer.echo(str(folder / "report.html"))
 
 
 @command.command()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Mapping, Sequence
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_PANELS = 12
+ABREAST, KEYS = 3, ("dprime", "criterion")  # people beside each other in a table of d', and what it has of each
+STYLE = (
+    "@page{size:A4;margin:10mm}body{font:8pt/1.3 system-ui,sans-serif;max-width:190mm;margin:auto}"
+    "h1{font-size:13pt}h2{font-size:10pt}table{border-collapse:collapse}svg{width:100%;height:auto;max-height:120mm}"
+    "td,th{padding:0 5px;border-bottom:.5pt solid #ccc;text-align:left;font-weight:normal}tr{break-inside:avoid}"
+)
 CAPTIONS = {
     "": "Circles: the answers at a level, larger the more there are. Line and band: the function and its "
     f"{LEVEL:.0%} interval. Bar: that of the threshold.",
@@ -65,7 +72,7 @@ _OF_FELT = {"drop_N": "drop", "peak_N": "peak", "roughness_N": "roughness", "spe
 
 
 def write_report(protocol: Protocol, folder: Path) -> Analysis:
-    """Analyses all sessions of a folder; writes report.md, its picture, results.json and the tables beside them.
+    """Analyses all sessions of a folder; writes the report, its picture, results.json and the tables beside them.
 
     Raises SessionError if there is none, or one of another protocol.
     """
@@ -87,7 +94,9 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
     write_whole(folder / "results.json", f"{analysis.model_dump_json(indent=1)}\n".encode(), private=True)
     if picture := _draw(protocol, analysis, found):
         write_whole(folder / "functions.svg", picture, private=True)
-    write_whole(folder / "report.md", _text(protocol, analysis, bool(picture)).encode(), private=True)
+    text = _text(protocol, analysis, bool(picture))
+    write_whole(folder / "report.md", text.encode(), private=True)
+    write_whole(folder / "report.html", _page(text, (picture or b"").decode()).encode(), private=True)
     return analysis
 
 
@@ -136,14 +145,16 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
-    detected = [
-        [one.participant, f"{each.level:.4g}", str(each.trials), words(each.dprime), words(each.criterion)]
-        for one in found.people
-        for each in one.detection
-    ]
-    if detected:
-        head = ["participant", f"level{unit}", "trials", "d'", "criterion"]
-        lines += ["## d'", "", *_table(head, detected)]
+    detected = [one for one in found.people if one.detection]
+    lines += ["## d'", ""] * bool(detected)
+    for i in range(0, len(detected), ABREAST):
+        some = {one.participant: {each.level: each for each in one.detection} for one in detected[i : i + ABREAST]}
+        head = [f"level{unit}", *(f"{name}, {what}" for name in some for what in ("d'", "criterion"))]
+        rows = [
+            [f"{level:.4g}", *(words(getattr(each.get(level), key, None)) for each in some.values() for key in KEYS)]
+            for level in sorted({level for each in some.values() for level in each})
+        ]
+        lines += _table(head, rows)
     caught = [one for one in found.people if one.catch_trials]
     if caught:
         what = "yes (false alarms)" if file.task == "yes_no" else "right"
@@ -152,6 +163,25 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     kind = "rates" if protocol.rates else "adjusts" if protocol.adjusts else ""
     lines += ["![The psychometric functions](functions.svg)", "", CAPTIONS[kind], ""] if drawn else []
     return "\n".join(lines)
+
+
+def _page(text: str, picture: str) -> str:
+    """The same report as one file to look at and to print."""
+    parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>Report</title><style>{STYLE}</style>"]
+    for block in re.split(r"\n\n+", escape(text.strip())):
+        row = block.partition(" ")
+        if row[0] == "|":
+            rows = [line[2:-2].split(" | ") for line in block.splitlines() if not line.startswith("| ---")]
+            parts += [
+                "<table>",
+                *("<tr>" + "".join(f"<td>{cell.strip('*')}" for cell in one) for one in rows),
+                "</table>",
+            ]
+        elif row[0] in ("#", "##"):
+            parts.append(f"<h{len(row[0])}>{row[2]}</h{len(row[0])}>")
+        else:
+            parts.append(picture[picture.find("<svg") :] if block.startswith("![") else f"<p>{block.strip('*')}</p>")
+    return "\n".join(parts)
 
 
 def _draw(protocol: Protocol, found: Analysis, sessions: Mapping[str, Sequence[Line]]) -> bytes | None:

@@ -21,7 +21,7 @@ from punctura.record.new_file import lock
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
-WRITTEN = ("report.md", "functions.svg", "results.json", *TABLES)  # by the analysis
+WRITTEN = ("report.md", "report.html", "functions.svg", "results.json", *TABLES)  # by the analysis
 
 
 class SessionError(PuncturaError):

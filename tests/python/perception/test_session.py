@@ -174,8 +174,10 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     report, picture = ((folder / name).read_text() for name in ("report.md", "functions.svg"))
     assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report and "Bar: that" in report
     assert "<!-- thickness of the thin membrane, mm -->" in picture
+    html = (folder / "report.html").read_text()
+    assert "<tr><td>O01<td>120<td>" in html and "<svg" in html and "functions.svg" not in html
     status, out, _ = punctura("perception", "delete", file, "O01")
-    assert status == 0 and out.count("deleted") == 7
+    assert status == 0 and out.count("deleted") == 8
     assert {path.name for path in folder.iterdir()} == {"O02.jsonl"}
     status, _, err = punctura("perception", "analyse", file, "--out", tmp_path / "none")
     assert status == 2 and "there is no folder" in err
