@@ -12,7 +12,7 @@ from scipy.special import betaincinv, chdtrc, chdtri, ndtr, ndtri, stdtrit, xlog
 from punctura.perception.course import Line, counted
 from punctura.perception.load import LEAST
 from punctura.perception.protocol import Protocol
-from punctura.perception.psychometric import Array, Belief, posterior
+from punctura.perception.psychometric import QUARTER, Array, Belief, posterior
 
 LEVEL = 0.95  # of all intervals
 SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
@@ -22,7 +22,6 @@ MISFIT = 0.001  # probability of answers that fit the function as badly
 MANY_LAPSES = 0.1  # upper end of the interval: the JND may be that of the lapses
 CLEAR, LEAST_CLEAR = 2.0, 4  # widths from the threshold at which a wrong answer is a lapse; so many of such answers
 REVERSED = 4.0  # standard deviations by which the answers go against the level
-QUARTER = float(ndtri(0.75))
 LEAST_CELL = 5  # answers for a rate of d'
 RATE, END = 0.45, 0.2  # added to k of n for a rate, taken from none: then d' has the least bias (docs/decisions)
 _POINTS = 200  # of each rate, for the interval of d'
@@ -165,17 +164,14 @@ def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> 
     grid, shape = belief.grid, protocol.shape
     ends = [belief.mean(np.asarray(beyond, np.float64)) for beyond in (grid.place < grid.low, grid.place > grid.high)]
     outside = sum(ends)
+    flat = not shape.one_sided and belief.density(grid.width, grid.widest) > OPEN
     if _misfit(belief, found) < MISFIT:
         result.reason = "the answers do not follow one function of the level: see the share at each in trials.csv"
-    elif outside > SHARES[0] and max(ends) > 3 * min(ends):
+    elif not flat and outside > SHARES[0] and max(ends) > 3 * min(ends):
         result.reason = (
             f"the threshold may lie outside the levels (probability {outside:.0%}): show levels on both sides of it"
         )
-    elif (
-        outside > SHARES[0]
-        or np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread
-        or (not shape.one_sided and belief.density(grid.width, grid.widest) > OPEN)
-    ):
+    elif flat or outside > SHARES[0] or np.ptp(belief.quantiles(grid.place, SHARES)) > VAGUE * grid.spread:
         result.reason = "the answers hardly depend on the level, so they do not determine a threshold"
     if result.reason:
         return
@@ -186,7 +182,7 @@ def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> 
     if shape.one_sided:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
-        result.jnd = _estimate(belief, QUARTER * grid.width)
+        result.jnd = _estimate(belief, grid.jnd())
         away = np.abs(np.append(found.x, catch.x) - result.threshold.value) * QUARTER / result.jnd.value
         lapses = result.lapse.high > MANY_LAPSES or (away > CLEAR).sum() < LEAST_CLEAR  # would look like noise
         if lapses or belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still

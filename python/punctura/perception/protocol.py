@@ -203,13 +203,13 @@ class Protocol:
     def shape(self) -> Shape:
         """Of the psychometric function."""
         if self.file.task == "yes_no" or self.compares:
-            bends = not self.compares and min(self.levels) > 0
-            return Shape(rises=self.rises, bends=bends, rest="bias" if self.compares else "floor")
+            return Shape(rises=self.rises, bends=min(self.levels) > 0, rest="bias" if self.compares else "floor")
         grows = self.difference(len(self.stimuli) - 1) >= self.difference(0) or self.reference is not None
         none = self.reference or 0.0  # the level at which nothing differs; 0 if the intervals differ in the solver
         below = self.levels[0] < none
         rest: Literal["", "bias"] = "bias" if self.intervals == 2 else ""
-        return Shape(self.intervals, one_sided=True, rises=grows, reference=none, below=below, rest=rest)
+        bends = self.reference is None
+        return Shape(self.intervals, one_sided=True, rises=grows, reference=none, below=below, bends=bends, rest=rest)
 
     @cached_property
     def easiest(self) -> int:

@@ -36,7 +36,7 @@ class Shape:
     rises: bool = True  # with the level
     reference: float = 0.0  # level at which nothing differs
     below: bool = False  # one-sided: the levels are below the reference
-    bends: bool = False  # the function is a normal one of the level, of its logarithm or of its reciprocal
+    bends: bool = False  # what z or the logarithm of d' goes with is the level, its logarithm or its reciprocal
     rest: Literal["", "floor", "bias"] = ""
 
     @property
@@ -72,7 +72,8 @@ QUEST = Sizes(61, 9, 3, 3)
 MOST_LAPSE, MOST_FLOOR, MOST_BIAS = 0.25, 0.45, 2.0
 BIAS = 0.7  # standard deviation of its prior
 EXPONENT, EXPONENTS = 1.0, 0.5  # of d': the middle of its prior, and the standard deviation of its logarithm
-BENDS = (1, 0, -1)  # power of the level of which the function is a normal one; 0: its logarithm
+BENDS = (1, 0, -1)  # power of the level that `bends` means; 0: its logarithm
+QUARTER = float(ndtri(0.75))  # widths from the place to the level of 75 %
 _Z = np.linspace(-8, 8, 801)
 _DPRIMES = np.linspace(0, 12, 1201)
 
@@ -106,8 +107,9 @@ class Grid:
         low, high = float(shown.min()), float(shown.max())
         self.low, self.high = low, high
         spread = self.spread = high - low
+        lowest = max(low - spread / 2, low / 4) if shape.bends and not shape.one_sided else low - spread / 2
         widest: Sequence[Array | tuple[float, float]] = (
-            (max(low - spread / 2, low / 4) if shape.bends else low - spread / 2, high + spread / 2),
+            (lowest, high + spread / 2),
             np.log([1 / 12, 3.0] if shape.one_sided else spread * np.array([0.02, 2.0])),
             (0.0, MOST_FLOOR) if shape.rest == "floor" else (-MOST_BIAS, MOST_BIAS),
             (0.0, np.sqrt(MOST_LAPSE)),
@@ -127,9 +129,9 @@ class Grid:
         outside = np.maximum(np.maximum(low - self.place, self.place - high), 0) / (spread / 2)
         prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** 49
         prior = prior * (1 - self.floor) * np.exp(-((self.bias / BIAS) ** 2) / 2)
-        if shape.one_sided:  # the width is one over the exponent of d'
+        if shape.one_sided and not shape.bends:  # the width is one over the exponent of d'
             prior = prior * np.exp(-(((width + np.log(EXPONENT)) / EXPONENTS) ** 2) / 2)
-        else:
+        elif not shape.one_sided and shape.rest != "floor":  # flat in a width that is wanted, else in its logarithm
             prior = prior * self.width
         self.prior: Array = prior / prior.sum()
         # Where the function of place and width has the probability 1/2, less its place, in widths: with a floor the
@@ -146,8 +148,10 @@ class Grid:
         place = self.place[::n]
         away = u - place
         if self.shape.bends:  # all with the same place, and the same slope there
-            ratio, bend = np.maximum(u / place, 1e-9), self.bend[::n]
-            away = np.where(bend > 0, away, place * np.where(bend == 0, np.log(ratio), 1 - 1 / ratio))
+            one_sided, bend = self.shape.one_sided, self.bend[::n]
+            log = np.clip(away if one_sided else np.log(np.maximum(u / place, 1e-9)), -30, 30)
+            bent = np.where(bend > 0, np.expm1(log), np.where(bend == 0, log, -np.expm1(-log)))
+            away = bent if one_sided else place * bent
         z = away / self.width[::n] * (1 if self.shape.rises else -1)
         bias = np.reshape(sides, (-1, 1)) * self.bias[::n]
         if self.shape.one_sided:
@@ -159,6 +163,16 @@ class Grid:
             floor = self.floor[::n]
             core = floor + (1 - floor) * ndtr(z + self._shift[::n] + bias)
         return self._lapsed(np.repeat(core, n, axis=1))
+
+    def jnd(self) -> Array:
+        """Half the distance between the levels of 25 and 75 %, of each cell. For a shape without a floor."""
+        step: Array = QUARTER * self.width
+        if not self.shape.bends:
+            return step
+        share = np.minimum(step / self.place, 0.99)  # with the reciprocal no level may reach 75 %
+        bent = np.where(self.bend == 0, np.sinh(share), share / (1 - share**2))
+        found: Array = np.where(self.bend > 0, step, self.place * bent)
+        return found
 
     def caught(self) -> Array:
         """The probability of a yes without what is asked for: (cells,)."""

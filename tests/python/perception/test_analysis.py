@@ -90,6 +90,22 @@ def test_the_prior_moves_no_threshold_of_right_answers() -> None:
     assert np.exp(belief.quantiles(belief.grid.place, (0.5,))) == pytest.approx(0.06, rel=0.01)
 
 
+def test_noise_that_grows_with_the_level_moves_neither_threshold_nor_jnd(senses: dict[str, Senses]) -> None:
+    """Of endless answers of two numbers with a noise of 10 % of each; and a d' that is no power of the level."""
+    protocol, weber = senses["compares"].protocol, 0.1
+    levels, reference = np.array(protocol.levels), 0.41
+    p = np.repeat(0.01 + 0.98 * ndtr((levels - reference) / (weber * np.hypot(levels, reference))), 400)
+    belief = posterior(protocol.shape, levels, np.repeat(levels, 400), p)
+    grid, ratio = belief.grid, np.geomspace(0.5, 2, 10_001)
+    low, high = np.interp([0.25, 0.75], ndtr((ratio - 1) / (weber * np.hypot(ratio, 1))), reference * ratio)
+    assert belief.quantiles(grid.place, (0.5,)) == pytest.approx(reference, rel=0.004)
+    assert belief.quantiles(grid.jnd(), (0.5,)) == pytest.approx((high - low) / 2, rel=0.015)
+    shape = Shape(2, one_sided=True, rises=False, bends=True)
+    p = np.repeat(ndtr(ndtri(0.75) * np.exp(2 * (0.4 / levels - 1))), 400)
+    belief = posterior(shape, levels, np.repeat(levels, 400), p)
+    assert np.exp(belief.quantiles(belief.grid.place, (0.5,))) == pytest.approx(0.4, rel=0.01)
+
+
 @pytest.mark.statistics
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}, {row[2]}")
 def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row) -> None:
