@@ -1,4 +1,4 @@
-// The C ABI under libFuzzer: the bytes are the text of a scene, and then calls with odd arguments. tools/fuzz_c_abi.sh.
+// The C ABI under libFuzzer: the bytes are the text of a scene, and then calls with odd arguments. tools/fuzz.sh.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The parsers of the Inverse Service's messages under libFuzzer: tools/fuzz_haply.sh.
+// The parsers of the Inverse Service's messages under libFuzzer: tools/fuzz.sh.
 #include <cstdint>
 
 #include "fuzz/haply_inputs.hpp"
