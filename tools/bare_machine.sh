@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks and times ./run and ./test in a fresh clone on a bare Debian that has only git, Python and certificates.
 #   sudo tools/bare_machine.sh                    Debian 12 (bookworm), then Debian 13 (trixie)
-#   sudo tools/bare_machine.sh trixie             only one of them
+#   sudo tools/bare_machine.sh testing            only one of them, or the next Debian
 #   sudo tools/bare_machine.sh --keep FOLDER ...  keeps systems and logs in FOLDER; the next call reuses the bare system
 # Needs debootstrap, 8 GB of disk and about an hour per system. Prints the tables of docs/bare-machine.md.
 set -euo pipefail
@@ -10,7 +10,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 suites=() folder="" words=("$@")
 while [ $# -gt 0 ]; do
   case $1 in
-    bookworm | trixie) suites+=("$1") ;;
+    bookworm | trixie | testing) suites+=("$1") ;;
     --keep) folder=${2:?"--keep needs a folder"} && shift ;;
     *) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
