@@ -64,7 +64,8 @@ def check(protocol: File, as_json: Json = False) -> None:
         found = {"protocol": loaded.name, "unit": loaded.unit, "trials": trials, "levels": levels}
         typer.echo(json.dumps(found, indent=2))
         return
-    typer.echo(f"{loaded.file.title}: {trials} trials a person, practice and catch trials included")
+    about = f"scene {loaded.file.scene}, {trials} trials a person, practice and catch trials included"
+    typer.echo(f"{loaded.file.title}: {about}")
     for level, felt in ((one.level, one.felt) for one in loaded.stimuli):
         words = f"drop {felt.drop:.3f} N, peak {felt.peak:.3f} N, roughness {felt.roughness * 1e3:.1f} mN"
         typer.echo(f"  {level:g} {loaded.unit}: {words}")

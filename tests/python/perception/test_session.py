@@ -159,6 +159,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     assert status == 0 and checked["trials"] == 152 and checked["unit"] == "m"
     drops = [level["drop"] for level in checked["levels"]]
     assert drops == sorted(drops, reverse=True)
+    assert "Was there a pop?: scene k06-fig10, 152 trials" in punctura("perception", "check", file)[1]
     status, out, err = punctura("perception", "simulate", file, "--people", 2, "--observer", "noise=0.03", "--json")
     found = json.loads(out)
     assert status == 0, err
