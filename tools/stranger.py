@@ -31,6 +31,10 @@ OUT = "the needle is out"
 KEYS = "The keys ↓ and ↑ move the needle."
 
 
+def said(page: Page) -> str:
+    return page.get_by_role("status").filter(visible=True).first.inner_text()
+
+
 class Mouse:  # drags like a hand: slowly, and anew where the page ends
     def __init__(self, page: Page, words: FloatRect) -> None:
         self.page, self.x = page, words["x"] + 500
@@ -57,7 +61,9 @@ class Mouse:  # drags like a hand: slowly, and anew where the page ends
 class Keys(Mouse):  # presses Tab until the page names the keys, and then holds one of these
     def __init__(self, page: Page, words: FloatRect) -> None:
         super().__init__(page, words)
+        end = time.monotonic() + PATIENCE / 1e3
         while not page.get_by_text(KEYS).is_visible():
+            assert time.monotonic() < end, f"the page never named the keys, but: {said(page)}"
             page.keyboard.press("Tab")
             page.wait_for_timeout(STEP_MS)
         page.wait_for_timeout(READING_MS)
@@ -66,7 +72,7 @@ class Keys(Mouse):  # presses Tab until the page names the keys, and then holds 
         key = "ArrowDown" if down else "ArrowUp"
         end = time.monotonic() + PATIENCE / 1e3
         while not until.is_visible():
-            assert time.monotonic() < end, f"the page never said it, but: {self.page.locator('p').all_inner_texts()}"
+            assert time.monotonic() < end, f"the page never said it, but: {said(self.page)}"
             self.page.keyboard.down(key)  # again while it is down: the keyboard's repeat
             self.page.wait_for_timeout(STEP_MS)
         self.page.keyboard.up(key)

@@ -19,6 +19,14 @@ NEEDLE_WHOLE = """() => {
   const [left, top, right, bottom] = document.querySelector(".view canvas").dataset.needle.split(" ").map(Number);
   return left >= 0 && top >= 0 && right <= 1 && bottom <= 1 && right - left + bottom - top > 0.1;
 }"""
+# The first pop's dot in the tissue is where the tip of the needle was, some mm from where it is now.
+AT_TIP = """() => {
+  const view = document.querySelector(".view canvas"), dot = document.querySelector(".stage-pops span");
+  const [, , right, bottom] = view.dataset.needle.split(" ").map(Number);
+  const [a, b] = [view.getBoundingClientRect(), dot.getBoundingClientRect()];
+  const [x, y] = [a.left + right * a.width - b.left, a.top + bottom * a.height - b.top];
+  return Math.abs(x) < 90 && Math.abs(y) < 60;
+}"""
 # The rows of the curve's picture in which its line, the darkest thing there, is drawn to the right of the names.
 ROWS = """() => {
   const canvas = document.querySelector(".stage-curve canvas");
@@ -112,6 +120,9 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(sentence).to_contain_text("It gave")
     page.wait_for_function(f"() => ({ROWS})() > {before} + 10")
     pushed = page.evaluate(ROWS)
+    dots = page.locator(".stage-pops span")
+    expect(dots).to_have_count(marks(page).count())
+    page.wait_for_function(AT_TIP)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     none_found(page, "the stage after a pop")
     marks(page).first.click()
@@ -123,6 +134,7 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(replay).to_be_hidden()
     expect(marks(page)).not_to_have_count(0)
     page.get_by_role("button", name="Again", exact=True).click()
+    expect(dots).to_have_count(0)
     expect(marks(page)).to_have_count(0)
     expect(sentence).to_contain_text("the needle is out")
     page.wait_for_function(f"() => ({ROWS})() < ({before} + {pushed}) / 2")  # what is left is the way out, in air

@@ -1,3 +1,4 @@
+import type { Triple } from "../engine/engine.ts";
 import { onePerApp } from "../state/app.ts";
 import { Signal } from "../state/signal.ts";
 
@@ -39,11 +40,13 @@ export class DepthScale {
 }
 
 /** What the stage and the view tell each other. */
-class Framing {
+export class Framing {
   /** Where the view keeps tissue, needle and syringe; null: its presets choose, as on the bench. */
   readonly free = new Signal<Free | null>(null);
   /** Counts how often the view shall go back to its first picture. */
   readonly again = new Signal(0);
+  /** Where the view shows a point (m), px; set by the view. */
+  onScreen: (point: Triple) => readonly [x: number, y: number] = () => [Number.NaN, Number.NaN];
   /** null while the view does not show depths one below the other. */
   readonly depths = new Signal<DepthScale | null>(null);
 }

@@ -113,6 +113,7 @@ export const view: Panel = (host, app) => {
     look(framing.free.value ? "front" : "oblique");
   };
   framing.again.watch(frame);
+  framing.onScreen = (point) => world.onScreen(point, orbit.camera);
   let built: SceneView | null = null;
   let placed = true; // with the place of the needle, which the first tick tells
   const build = (scene: SceneView): void => {

@@ -1,4 +1,5 @@
 import { type Camera, Vector3 } from "three";
+import type { Triple } from "../engine/engine.ts";
 import { newton } from "../format.ts";
 import type { Pose } from "../hand/hand.ts";
 import type { Goal } from "../state/app.ts";
@@ -196,6 +197,12 @@ export class World {
     const x = on.map((point) => (1 + point.x) / 2);
     const y = on.map((point) => (1 - point.y) / 2);
     return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+  }
+
+  /** Where a point (m) is in the view, px. */
+  onScreen(point: Triple, camera: Camera): [x: number, y: number] {
+    const { x, y } = new Vector3(...point).multiplyScalar(MM).project(camera);
+    return [((1 + x) / 2) * this.stage.width, ((1 - y) / 2) * this.stage.height];
   }
 
   /** Where depths are on the screen, beside the tissue; null if the camera does not see one below the other. */

@@ -1,3 +1,4 @@
+import type { Triple } from "../engine/engine.ts";
 import { signedSize } from "../plots/gather.ts";
 import { Polyline } from "../plots/kit/polyline.ts";
 import type { History } from "../state/history.ts";
@@ -19,6 +20,8 @@ interface PopMark {
   /** Of the tip below the skin, mm, and the felt force before it, N. */
   readonly depth: number;
   readonly force: number;
+  /** Of the tip, m. */
+  readonly place: Triple;
 }
 
 /** The depth of the tip below the skin, mm, and the felt force, N: negative if it pulls the needle in. */
@@ -145,6 +148,7 @@ export class Attempt {
     if (drop !== null && drop < SEEN * strongestAt(this.source, tick)) return;
     const { depth } = feltAt(history, scene, tick);
     const { force } = feltAt(history, scene, Math.max(history.first, tick - 1));
-    this.pops = [...this.pops, { event, depth, force }];
+    const [x, y, z] = history.row("tip", tick);
+    this.pops = [...this.pops, { event, depth, force, place: [x!, y!, z!] }];
   }
 }

@@ -2,7 +2,7 @@ import { fixedNumber, newton } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
-import { type DepthScale, type Free, framingOf } from "../scene/framing.ts";
+import { type DepthScale, type Framing, type Free, framingOf } from "../scene/framing.ts";
 import type { App } from "../state/app.ts";
 import type { History } from "../state/history.ts";
 import { pageOf, show } from "../state/page.ts";
@@ -58,6 +58,7 @@ export const stage: Panel = (root, app) => {
     buttons,
   );
   root.append(box);
+  const popped = popsInTissue(picture);
 
   const measure = (): void => {
     framing.free.value = page.value === "stage" ? shareOf(free, view) : null;
@@ -111,6 +112,7 @@ export const stage: Panel = (root, app) => {
     const now = built && tick !== null ? feltAt(source.value.history, built, tick) : null;
     const hidden = app.blind || !built;
     curve.root.hidden = hidden;
+    popped(hidden || picture.hidden ? [] : attempts.shown().pops, framing.onScreen);
     if (built && !hidden) {
       const attempt = attempts.shown();
       const most = ROOM * Math.max(strongestAt(source.value, tick), attempt.most);
@@ -132,6 +134,21 @@ export const stage: Panel = (root, app) => {
 /** Changes a text only if it is another one: screen readers read every change. */
 function write(host: HTMLElement, text: string): void {
   if (host.textContent !== text) host.textContent = text;
+}
+
+/** Dots in the view where the tissue gave way. The curve's buttons at their heights show it again. */
+function popsInTissue(picture: HTMLElement): (pops: Attempt["pops"], onScreen: Framing["onScreen"]) => void {
+  const layer = element("div", { class: "stage-pops", "aria-hidden": "true" });
+  picture.after(layer);
+  return (pops, onScreen) => {
+    while (layer.children.length > pops.length) layer.lastElementChild!.remove();
+    while (layer.children.length < pops.length) layer.append(element("span", {}));
+    pops.forEach(({ place }, i) => {
+      const to = onScreen(place).map((px) => `${px.toFixed(0)}px`);
+      const dot = layer.children[i] as HTMLElement;
+      if (dot.style.translate !== to.join(" ")) dot.style.translate = to.join(" ");
+    });
+  };
 }
 
 /** What has left the syringe. Fluid that pushes the plunger back is no injection. */
