@@ -51,6 +51,12 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
 
 
+def other_heading(row: Row, above: Iterable[Row]) -> bool:
+    """Whether a row within the numbers names columns or units, and not as a row above them does."""
+    plain = [[str(cell or "").strip().casefold() for cell in one] for one in (row, *above)]
+    return _is_heading(row) and plain[0] not in plain[1:]
+
+
 def _is_heading(row: Row) -> bool:
     """Whether texts name two of the columns, or two units. Numbers may stand beside them, such as those of formulas."""
     return (

@@ -72,6 +72,7 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
         end = max((stroke.end for stroke in inward), key=lambda i: trace.depth[i - 1])
         start, last = ways[0].start, ways[-1].end
         touched = segments.contact if insertion == 0 else _contact(level, start, end)
+        touched = None if touched is None or not start <= touched < end else touched  # the first one may stay in air
         pops = [pop for pop in segments.pops if start <= pop.start < end]
         found.append(_numbers(level, insertion, (start, end, last), touched, pops, (zero, noise), float(np.cos(angle))))
     if not found:

@@ -178,3 +178,12 @@ def test_a_soft_layer_in_front_of_the_contact_does_not_move_the_zero():
     soft = np.where((NEEDLES_WAY > 0.8e-3) & (np.arange(len(NEEDLES_WAY)) < 1201), 0.05, 0.0)
     (result,) = numbers_of(replace(made, force=made.force + soft))
     assert result.zero_N == pytest.approx(0, abs=1e-9) and result.peak_N == pytest.approx(1.05)
+
+
+def test_a_first_insertion_that_stays_in_air_has_no_contact():
+    whole = triangle()
+    force = np.concatenate((1e-3 * whole.force, whole.force))
+    twice = Trace(np.tile(whole.depth, 2), force, np.arange(len(force)) * 1e-2)
+    first, second = numbers_of(twice)
+    assert first.contact_m is None and first.peak_N < 2e-3
+    assert second.contact_m == pytest.approx(2e-3, abs=0.1e-3)

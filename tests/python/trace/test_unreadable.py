@@ -74,3 +74,13 @@ def test_a_place_before_the_beginning_of_a_file_is_damage(tmp_path):
     path = tmp_path / "a.xlsx"
     path.write_bytes(b"PK")
     assert "is damaged or cut off" in str(unreadable(path, "XLSX", OSError(errno.EINVAL, os.strerror(errno.EINVAL))))
+
+
+def test_another_table_within_the_numbers_is_no_part_of_the_first(tmp_path):
+    rows = "".join(f"{0.1 * i:.1f},{i},{i * i}\n" for i in range(20))
+    path = tmp_path / "trace.csv"
+    path.write_text(f"time_s,depth_mm,force_N\n{rows}\ntime_s,depth_mm,force_mN\n{rows}")
+    with pytest.raises(TraceError, match=r"behind 20 rows .* \(time_s, depth_mm, force_mN\).* a file of its own"):
+        read_trace(path)
+    path.write_text(f"time_s,depth_mm,force_N\n{rows}\nmax. time_s,max. depth_mm,max. force_N\n1.9,19,361\n")
+    assert len(read_trace(path)) > 19  # a table of results at the end is as short as that
