@@ -59,7 +59,7 @@ class Measures:
         self._next_tick: int | None = None
         self._lost = 0
         self._cut = dict.fromkeys(CUTS, 0)  # ticks
-        self._late = 0  # ticks without a word of the page
+        self._late = 0  # ticks without a word of the page, since the first contact
         self._off = 0  # ticks in the tissue without force, since the last entry
         self._rate = scene.servo.rate
         self._last_time = self._seen_to = 0.0
@@ -76,7 +76,8 @@ class Measures:
         if touches:
             self._off, off = 0, off[ticks.tick >= touches[-1].tick]
         self._off += int(off.sum())
-        self._late += int((ticks.age > LATE_S).sum())
+        if self.first_touch is not None:
+            self._late += int(((ticks.age > LATE_S) & (ticks.time >= self.first_touch)).sum())
         for name in CUTS:
             self._cut[name] += int((ticks.limit == getattr(Limit, name).value).sum())
         self.peak_force = float(np.fmax(self.peak_force, np.fmax.reduce(ticks.force)))
@@ -153,7 +154,7 @@ class Measures:
 
     @property
     def page_late(self) -> float:
-        """Time in which the page that moves the hand was late, s."""
+        """Time since the first contact in which the page that moves the hand was late, s."""
         return self._late / self._rate
 
     @property

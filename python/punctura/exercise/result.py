@@ -154,7 +154,7 @@ class Metrics(_Part):
     total_time: Finite  # s, from the first contact to the decision
     lost_ticks: int  # that the recording lacks
     force_cut: dict[str, Finite] = {}  # s, time in which the device's force was below the model's, by limit
-    page_late: Finite = 0.0  # s, time in which the page that moves the hand was late
+    page_late: Finite = 0.0  # s, time since the first contact in which the page that moves the hand was late
     force_off: Finite = 0.0  # s, time since the last entry in which the tissue gave no force to the hand
 
 

@@ -183,14 +183,16 @@ def stays_of(samples: Samples) -> int:
 
 
 def pauses_of(samples: Samples, until: float) -> Pauses:
-    """The pauses in the tissue before the time `until`, s, of the arrival or of the end."""
+    """The pauses in the tissue before the time `until`, s, of the arrival or of the end. A needle that the page held
+    for a part of the time is no pause."""
     rows = (samples.time <= until) & np.isfinite(samples.tip).all(axis=1)
-    time, tip, inside = samples.time[rows], samples.tip[rows], (samples.inside & ~samples.late)[rows]
+    time, tip, inside, late = samples.time[rows], samples.tip[rows], samples.inside[rows], samples.late[rows]
     if len(time) < 3 or time[-1] - time[0] < PAUSE_S:
         return Pauses(0, 0.0)
     smooth, _ = _smooth(time, tip)
     speed = np.linalg.norm(np.gradient(smooth, time, axis=0), axis=1)
-    lengths = [float(time[end - 1] - time[start]) for start, end in _runs((speed < PAUSE_SPEED) & inside)]
+    still = [run for run in _runs((speed < PAUSE_SPEED) & inside) if not late[slice(*run)].any()]
+    lengths = [float(time[end - 1] - time[start]) for start, end in still]
     lengths = [length for length in lengths if length >= PAUSE_S]
     return Pauses(len(lengths), sum(lengths))
 

@@ -54,6 +54,28 @@ def test_a_stall_on_the_way_is_no_pause_of_the_student(write, cuts):
 
 
 @pytest.mark.parametrize("cuts", [29, 100_000])
+def test_one_standstill_is_never_blamed_on_both(write, cuts):
+    """The page is silent for 0.8 s, and speaks again while the needle still stands."""
+    ticks, _ = stalled(2.5, (0, 5, 0), (0, -3, 0), (0, -7, 0))
+    began = ticks["time"][(ticks["page_age"] > 0.3).argmax()] - 0.3
+    again = ticks["time"] >= began + 0.8
+    ticks["page_age"] = np.where(again, 0.0, ticks["page_age"])
+    stay = goal("stay", seconds=0.5)
+    made = result(write, ticks, stay, goal("no_pause", seconds=1), cuts=cuts)
+    assert made.withheld == "not everything was measured" and "You stood still" not in " ".join(made.reasons)
+    assert "pauses" not in abouts(result(write, ticks, stay, cuts=cuts))
+    waits = goal("no_pause", seconds=2.4)  # 1.7 s of the page that speaks are no pause of so long
+    assert result(write, ticks, stay, waits, cuts=cuts).passed
+
+
+@pytest.mark.parametrize("cuts", [29, 100_000])
+def test_a_stall_before_the_first_contact_is_not_told(write, cuts):
+    late, _ = stalled(3.0, (0, 8, 0), (0, 5, 0), (0, -7, 0))
+    made = result(write, late, goal("stay", seconds=0.5), cuts=cuts)
+    assert made.passed and made.metrics.page_late == 0 and "page" not in " ".join(made.reasons)
+
+
+@pytest.mark.parametrize("cuts", [29, 100_000])
 def test_a_stall_in_the_space_is_no_stay(write, cuts):
     late, still = stalled(3.0, (0, 5, 0), (0, -7, 0), (0, -6.9, 0), stops=0.5)
     assert result(write, still, goal("stay", seconds=2), cuts=cuts).passed

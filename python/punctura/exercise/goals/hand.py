@@ -133,14 +133,16 @@ class NoPause(Goal):
 
 
 class PauseJudge(LimitJudge):
-    """Judges the way from first contact to arrival. A late page is no pause, and for more than 1 s no measurement."""
+    """Judges the way from first contact to arrival. While the page is late nobody pauses; after more than 1 s of it,
+    and if it was late during a pause, nobody knows whether the student stood still."""
 
     def __init__(self, goal: NoPause, space: TargetSpace) -> None:
         super().__init__(goal.text or f"Do not stand still for {goal.seconds:g} s on the way to {space.name}")
         self.seconds = goal.seconds
         self._space, self._speed = space, MeanSpeed(PAUSE_MEAN_S)
         self._arrived = False
-        self._still = 0.0  # s, of the present pause
+        self._still = 0.0  # s, of the present pause without the time in which the page was late
+        self._excused = False  # the page was late in the present pause
         self._before: float | None = None  # time of the last tick
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
@@ -149,15 +151,21 @@ class PauseJudge(LimitJudge):
         arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
         self._arrived = bool(arrived[-1])
         on_the_way = known & ~arrived
-        if self.gone is None:
-            self.gone = first_of(ticks, on_the_way & (ticks.age > GONE_S))
-        slow = on_the_way & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED) & (ticks.age <= LATE_S)
+        slow = on_the_way & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED)
+        late = ticks.age > LATE_S
         step = np.diff(ticks.time, prepend=ticks.time[0] if self._before is None else self._before)
         self._before = float(ticks.time[-1])
-        total = self._still + np.cumsum(np.where(slow, step, 0.0))
+        total = self._still + np.cumsum(np.where(slow & ~late, step, 0.0))
         since = np.maximum.accumulate(np.where(slow, 0.0, total))  # what was counted before the present pause
         self._still = float(total[-1] - since[-1])
-        self._miss(ticks, slow & (total - since >= self.seconds - PAUSE_MEAN_S))
+        rows = np.arange(len(ticks))
+        moving = np.maximum.accumulate(np.where(slow, -2, rows))
+        excused = np.maximum.accumulate(np.where(slow & late, rows, -1 if self._excused else -3)) > moving
+        self._excused = bool(excused[-1])
+        long = slow & ~late & (total - since >= self.seconds - PAUSE_MEAN_S)
+        if self.gone is None:
+            self.gone = first_of(ticks, (on_the_way & (ticks.age > GONE_S)) | (long & excused))
+        self._miss(ticks, long & ~excused)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"You stood still for {self.seconds:g} s before you reached {space.name}."
