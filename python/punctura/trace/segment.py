@@ -16,7 +16,7 @@ from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 
 Array = NDArray[np.float64]
 
-FAR = 0.1  # of the range of the depth: a rest goes less far
+FAR, SUDDEN = 0.1, 5  # of the range of the depth: a rest goes less far, but beside a jump of fewer samples
 AWAY = 0.8  # of the samples in air: a soft layer may begin before the contact
 
 
@@ -152,9 +152,12 @@ def _resting(trace: Trace) -> NDArray[np.bool_]:
     edges = np.flatnonzero(np.diff(np.concatenate(([False], slow, [False])).astype(np.int8)))
     still = max(1e-3 * float(np.ptp(trace.depth)), 4 * noise_of(trace.depth))
     rests = np.zeros(len(trace), bool)
+    steps = np.abs(np.diff(trace.depth))
+    jumps = int(np.sum(steps > 0.1 * steps.max())) < SUDDEN
     for start, end in edges.reshape(-1, 2):
         way = float(np.ptp(trace.depth[start:end]))  # one far slower than the way back of the machine is no rest
-        if trace.time[end - 1] - trace.time[start] >= 0.3 and way <= max(FAR * float(np.ptp(trace.depth)), still):
+        short = jumps or way <= max(FAR * float(np.ptp(trace.depth)), still)
+        if trace.time[end - 1] - trace.time[start] >= 0.3 and short:
             moved = np.abs(trace.depth - float(np.median(trace.depth[start:end]))) > still
             ends = np.flatnonzero(moved[end:])  # the speed is averaged, so a rest is longer than `slow` says
             starts = np.flatnonzero(moved[:start])
