@@ -147,8 +147,12 @@ def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
     if segments.exit is not None:
         after = float(np.median(trace.force[segments.exit :])) - float(np.median(before))
         if abs(after) > max(_SMALL * height, 5 * noise):
-            text = f"the force is {after:+.3g} N different after the needle has left the tissue"
-            yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
+            text = (
+                f"the force is {after:+.3g} N different after the needle has left the tissue: let the sensor warm up, "
+            )
+            restless = all(stroke.kind != "hold" for stroke in (segments.strokes[0], segments.strokes[-1]))
+            rubbed = f"or rest in air, which tells a drift from {-0.5 * after:.2g} N of friction of the slide"
+            yield Finding("drift", text + (rubbed if after < 0 and restless else "or fit the drift"))
         return  # the zero is known at both ends
     if len(before) >= 30:
         rise, error = slope(np.linspace(-1, 1, len(before)), before)

@@ -5,6 +5,7 @@ Only what both ends of a trace show within themselves counts, so a drift between
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -23,57 +24,83 @@ PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be 
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
 MATTERS = 0.01  # of the range of the force
-SLOW = 1.0  # of a drift at an end, that may be uneven
+ENDING = 2  # kinds of friction that end in a rest
+SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
 
 
-def directions(trace: Trace) -> Array:
-    """1 where the needle goes in, -1 where it goes out, 0 where it rests (n,).
+def _frictions(trace: Trace) -> Iterator[Array]:
+    """What friction of 1 N may add to the force (n, 1), or each way by itself (n, 2), in the order of their simplicity.
 
-    It is a mean of three samples, because no stroke is known better; at both ends of a rest, the drive moves or brakes.
+    It ends in a rest, or a rest keeps that of the last motion; then the first rest has none, or that of a way out. It
+    is a mean of three samples, because no stroke is known better; at both ends of a rest, the drive moves or brakes.
     """
-    found = np.zeros(len(trace))
-    for stroke in segment(trace).strokes:
+    ending, keeping, last = np.zeros(len(trace)), np.zeros(len(trace)), 0.0
+    strokes = segment(trace).strokes
+    for stroke in strokes:
+        last = last if stroke.kind == "hold" else 1.0 if stroke.kind == "in" else -1.0
+        keeping[stroke.start : stroke.end] = last
         if stroke.kind != "hold":
-            found[max(stroke.start - 1, 0) : stroke.end + 1] = 1.0 if stroke.kind == "in" else -1.0
-    return smooth(found, 3)
+            ending[max(stroke.start - 1, 0) : stroke.end + 1] = last
+    yield smooth(ending, 3)[:, None]
+    yield np.column_stack((smooth(np.maximum(ending, 0.0), 3), smooth(np.minimum(ending, 0.0), 3)))
+    yield smooth(keeping, 3)[:, None]
+    if strokes[0].kind == "hold":
+        keeping[: strokes[0].end] = -1.0
+        yield smooth(keeping, 3)[:, None]
 
 
 def shapes(trace: Trace) -> Array:
-    """What 1 N and 1 N/m of RIG_FORCES add to the force (n, 2); 0 for those that no finding names."""
-    named = [any(finding.kind == name for finding in trace.findings) for name in RIG_FORCES]
-    if not any(named):
-        return np.zeros((len(trace), len(RIG_FORCES)))
-    return np.asarray(np.column_stack((directions(trace), trace.depth - trace.depth[0])) * named)
+    """What 1 N and 1 N/m of RIG_FORCES add to the force (n, 2); 0 for those that the air does not show."""
+    return np.zeros((len(trace), len(RIG_FORCES))) if trace.rig is None else trace.rig
 
 
 def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     """The trace without the forces that its air shows, and a finding for each of them."""
-    columns = np.column_stack((directions(trace), trace.depth - trace.depth[0]))
+    begin = float(trace.depth[0])
     way = float(np.ptp(trace.depth[: int(np.argmax(trace.depth)) + 1]))
+    cable = trace.depth - begin
+    frictions = list(_frictions(trace))
     for part in PARTS:
-        sizes = _in_air(trace, columns, float(trace.depth[0]) + part * way)
-        if sizes is not None:
+        deep = begin + part * way
+        found_all = [_in_air(trace, np.column_stack((friction, cable)), deep) for friction in frictions]
+        known = [(one, friction) for one, friction in zip(found_all, frictions, strict=True) if one is not None]
+        if known:
             break
     else:
         return trace, []
+    if any(one is not None for one in found_all[:ENDING]):
+        known = known[:1]
+    (sizes, _), friction = min(known, key=lambda one: one[0][1])
     least = MATTERS * float(np.ptp(trace.force))
-    seen = np.array([abs(sizes[0]) > least, abs(sizes[1]) * way > least])
-    sizes = np.where(seen, sizes, 0.0)
+    rubbed = friction @ sizes[:-1]
+    size = float(np.max(np.abs(sizes[:-1])))
+    seen = np.array([size > least, abs(sizes[-1]) * way > least])
+    each = (
+        f"{size:.2g} N each way"
+        if friction.shape[1] == 1
+        else " and ".join(
+            f"{abs(one):.2g} N on the way {name}" for one, name in zip(sizes, ("in", "out"), strict=False)
+        )
+    )
     texts = (
-        f"the force in air follows the direction of the motion, by {abs(sizes[0]):.2g} N each way, as friction of the "
-        "slide makes it; this is subtracted",
-        f"the force in air changes by {1e-3 * sizes[1]:+.2g} N a mm on both ways, as a cable that pulls makes it; this "
-        "is subtracted, also in the tissue",
+        f"the force in air follows the direction of the motion, by {each}, as friction of the slide makes it; this is "
+        "subtracted",
+        f"the force in air changes by {1e-3 * sizes[-1]:+.2g} N a mm on both ways, as a cable that pulls makes it, or "
+        "a soft layer that follows the needle; this is subtracted, also deeper in",
     )
     found = [Finding(name, text, True) for name, text, one in zip(RIG_FORCES, texts, seen, strict=True) if one]
-    return replace(trace, force=trace.force - columns @ sizes), found
+    if not found:
+        return trace, []
+    rig = np.column_stack((rubbed / max(size, 1e-300), cable)) * seen
+    return replace(trace, force=trace.force - rig @ [size, sizes[-1]], rig=rig), found
 
 
-def _in_air(trace: Trace, columns: Array, deep: float) -> Array | None:
-    """The sizes of these forces (2,), if they and noise are all that stands above the depth `deep`, m, at both ends.
+def _in_air(trace: Trace, columns: Array, deep: float) -> tuple[Array, float] | None:
+    """The sizes of these forces (k,), and the change of the zero between both ends, N; None if more stands there.
 
-    One that is not clearly there is 0. None if none is, or if more stands there.
+    They and noise must be all above the depth `deep`, m. The last one is that of the depth; if it, or the only
+    friction, is not clearly there, it is 0. None if none is.
     """
     inside = np.flatnonzero(trace.depth > deep)
     if not len(inside):
@@ -87,8 +114,10 @@ def _in_air(trace: Trace, columns: Array, deep: float) -> Array | None:
     if trace.time is not None:
         own.append(trace.time[rows] - trace.time[0])
     ways = [float(np.ptp(trace.depth[end])) for end in ends]
-    turns = any(np.ptp(columns[end, 0]) > 0 for end in ends)
-    kept = [i for i, told in enumerate((turns, len(ends) == 2 and ways[1] > BOTH * ways[0])) if told]
+    told = [any(np.ptp(column[end]) > 0 for end in ends) for column in columns.T]
+    told[-1] = len(ends) == 2 and ways[1] > BOTH * ways[0]
+    kept = [i for i, one in enumerate(told) if one]
+    several = columns.shape[1] - 1
     while kept:
         known = np.column_stack((columns[rows][:, kept], *own))
         scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
@@ -103,9 +132,10 @@ def _in_air(trace: Trace, columns: Array, deep: float) -> Array | None:
             error[: len(kept)] += SLOW * abs(found[-1] / scale[-1]) * longest
         sure = np.abs(found[: len(kept)]) / np.maximum(error[: len(kept)], 1e-300)
         if sure.min() > SURE:
-            sizes = np.zeros(len(RIG_FORCES))
+            sizes = np.zeros(columns.shape[1])
             sizes[kept] = (found / scale)[: len(kept)]
-            return sizes
+            zeros = (found / scale)[len(kept) : len(kept) + len(ends)]
+            return (sizes, float(np.ptp(zeros))) if several == 1 or sizes[:several].all() else None
         kept.pop(int(np.argmin(sure)))
     return None
 

@@ -64,6 +64,7 @@ class Trace:
     source: str = ""  # its file, for messages
     findings: tuple[Finding, ...] = field(default=(), repr=False)  # what is unusual in it
     depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
+    rig: Array | None = field(default=None, repr=False)  # (n, 2) shapes of the rig's own forces (rig_force.py), if any
 
     def __post_init__(self) -> None:
         for name in ("depth", "force", "time"):
@@ -93,7 +94,8 @@ class Trace:
         """A part of the trace, by slice, mask or indices in ascending order."""
         time = None if self.time is None else self.time[which]
         depths = None if self.depths is None else self.depths[:, which]
-        return replace(self, depth=self.depth[which], force=self.force[which], time=time, depths=depths)
+        rig = None if self.rig is None else self.rig[which]
+        return replace(self, depth=self.depth[which], force=self.force[which], time=time, depths=depths, rig=rig)
 
     @cached_property
     def strokes(self) -> NDArray[np.int64]:

@@ -49,6 +49,29 @@ def test_a_force_of_the_rig_that_the_air_shows_is_named_and_is_no_wall(of_rig, k
     assert [values[f"membrane[0].{name}"].value for name in truth] == pytest.approx(list(truth.values()), rel=0.02)
 
 
+def keeping(depth, speed, first):
+    """Friction that a rest keeps: of the last motion, and at first another one (N)."""
+    moving = np.sign(np.where(np.abs(speed) > 1e-6, speed, 0))
+    last = np.maximum.accumulate(np.where(moving != 0, np.arange(len(depth)), 0))
+    return np.where(np.arange(len(depth)) < np.argmax(moving != 0), first, 0.06 * moving[last])
+
+
+@pytest.mark.parametrize(
+    ("of_rig", "words"),
+    [
+        (lambda depth, speed: np.select([speed > 1e-5, speed < -1e-5], [0.09, -0.03]), "0.092 N on the way in"),
+        (lambda depth, speed: keeping(depth, speed, 0.0), "by 0.06 N each way"),
+        (lambda depth, speed: keeping(depth, speed, -0.06), "by 0.06 N each way"),
+    ],
+)
+def test_friction_may_differ_by_the_way_and_a_rest_may_keep_it(of_rig, words):
+    trace, plain = rested(of_rig), rested(lambda depth, speed: 0 * depth)
+    (told,) = (finding for finding in trace.findings if finding.kind != "offset")
+    assert told.kind == "slide_friction" and words in told.text
+    zero = np.median(trace.force[:100])
+    assert np.sqrt(np.mean((trace.force - zero - plain.force) ** 2)) < 5e-3
+
+
 def test_a_trace_without_such_a_force_has_none():
     assert kinds(rested(lambda depth, speed: 0 * depth)) == []
 
