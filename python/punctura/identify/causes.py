@@ -84,8 +84,9 @@ def way_out(ratio: float, growth: float = 0.0) -> tuple[str, str]:
     words = f"The way out is asymmetric: it resists {max(ratio, 0.0):.2g} times as much as the way in, and K06 has 1"
     if ratio > 1:
         return "barbs", (
-            f"{words}. Barbs, a bent or rough tip, or tissue that closes behind it do this. To tell: withdraw a smooth "
-            "needle of the same diameter"
+            f"{words}. Barbs, a bent or rough tip, or tissue that closes behind it do this, and so does a sensor that "
+            "shows too little of a large push. To tell: withdraw a smooth needle of the same diameter, and load the "
+            "sensor with weights, up to the greatest force, both ways"
         )
     return "asymmetric_way_out", (
         f"{words}. A hole that stays open, a cutting force or a wetted shaft do this. To tell: go in and out a second "

@@ -273,3 +273,8 @@ def test_a_tip_that_a_soft_spring_keeps_in_the_wall_is_told_to_go_deeper():
     segments, unknown = segment(made), [Estimate("membrane[0].stiffness", 600.0, None, None, "N/m")]
     said = verdicts(unknown, made, segments, found, AirNoise(made, segments))
     assert any("insert until the tip is through" in one for one in said) and not segments.pops
+
+
+def test_a_way_out_that_resists_more_may_be_the_sensor():
+    kind, text = way_out(1.3)
+    assert kind == "barbs" and "sensor" in text and "weights" in text
