@@ -92,7 +92,7 @@ def _numbers(
     """rows: where the way in begins, where it ends, and where the insertion ends. air: zero and noise, N."""
     (start, end, last), (zero, noise) = rows, air
     first = start if contact is None else contact
-    peak = first + int(np.argmax(trace.force[first:end]))
+    peak = first + int(np.argmax(trace.force[first : min(end + 1, last)]))  # the deepest sample begins the next stroke
     deepest = float(trace.depth[start:last].max())
     inward = trace.depth[first:end]  # it may creep deeper in a rest
     near = inward >= inward.max() - LAST * (inward.max() - inward[0])

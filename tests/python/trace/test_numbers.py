@@ -92,6 +92,14 @@ def test_the_final_force_is_that_of_the_way_in_also_where_a_rest_deeper_in_was_l
     assert result.final_N == pytest.approx(0.68, abs=0.02)
 
 
+def test_the_greatest_force_may_be_that_of_the_deepest_sample_where_there_are_few():
+    time = np.arange(0, 10, 0.1)
+    depth = np.interp(time, [0, 3, 10], [0, 4.5e-3, 4.5e-3])
+    force = 200 * depth * np.exp(-np.clip(time - 3, 0, None))  # it relaxes from the first sample of the rest on
+    (result,) = numbers_of(Trace(depth, force, time))
+    assert result.peak_N == pytest.approx(0.9, abs=1e-6)
+
+
 def test_a_trace_that_never_goes_in_is_refused():
     made = trace(noise=0.0)
     out = made[int(np.argmax(made.depth)) + 300 :]
