@@ -128,7 +128,7 @@ def main(kills: int = 10, seed: int = 1) -> None:
                     kept = len(on_disk(folder))
                     assert kept >= max(answers)
                     print(f"kill {kill + 1}: {kept} of {trials} trials are on the disk", flush=True)
-                    longest *= 1.5 if kept == before else 0.8  # so every second kill comes after an answer
+                    longest *= (1.5, 0.8, 0.5)[min(kept - before, 2)]  # so every second kill comes after an answer
                     studio = sitting(folder, studio.port)
                 while not page.locator(".stage-sentence").inner_text().startswith("That was the last trial"):
                     act(page)
