@@ -185,7 +185,9 @@ def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> 
         result.jnd = _estimate(belief, grid.jnd())
         away = np.abs(np.append(found.x, catch.x) - result.threshold.value) * QUARTER / result.jnd.value
         lapses = result.lapse.high > MANY_LAPSES or (away > CLEAR).sum() < LEAST_CLEAR  # would look like noise
-        if lapses or belief.density(grid.width, grid.narrowest) > OPEN:  # no answer says that it is not smaller still
+        apart = found.level != protocol.reference  # equal intervals tell the bias alone
+        seen = belief if apart.all() else belief_of(protocol, Answers(*(one[apart] for one in found)), catch)
+        if lapses or seen.likelihood(seen.grid.width, grid.narrowest) > OPEN:  # no answer says: not smaller still
             result.jnd = Estimate(np.nan, -np.inf, result.jnd.high)
 
 

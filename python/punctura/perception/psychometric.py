@@ -206,6 +206,12 @@ class Belief(NamedTuple):
         unique, mass = self.marginal(values)
         return float(mass[np.isclose(unique, at)].sum() / mass.max())
 
+    def likelihood(self, values: Array, at: float) -> float:
+        """Of one of the values, as a share of the largest: how well the answers agree; 0 outside the grid."""
+        unique, mass = self.marginal(values)
+        found = mass / self._replace(weight=self.grid.prior).marginal(values)[1]
+        return float(found[np.isclose(unique, at)].sum() / found[mass > 1e-9].max())
+
     def mean(self, values: Array) -> float:
         return float((self.weight * values).sum())  # BLAS would start threads for it
 

@@ -248,6 +248,17 @@ def test_answers_that_change_at_once_give_a_jnd_no_lower_bound(senses: dict[str,
     assert '"jnd":[null,null,0.0' in together.model_dump_json()
 
 
+def test_answers_to_equal_intervals_give_a_jnd_no_lower_bound(tmp_path: Path) -> None:
+    """Half of these answers are right by chance, however small the JND is."""
+    protocol = load_protocol(written(tmp_path, with_levels(COMPARES, np.array([0.21, 0.31, 0.41, 0.51, 0.61]))))
+    sharp = session(protocol, lambda level, i: i // 2 % 2 if level == 0.41 else level > 0.41)
+    dull = session(protocol, lambda level, i: (i + 0.5) / 20 < ndtr((level - 0.41) / 0.08))
+    together = analyse(protocol, {"P01": sharp, "P02": dull})
+    first, second = (one.jnd for one in together.people)
+    assert words(first).startswith("at most 0.0") and together.jnd is None and together.threshold is not None
+    assert second is not None and second.low < 0.08 * ndtri(0.75) < second.high
+
+
 def test_false_alarms_of_catch_trials_are_in_the_fit() -> None:
     shown, hits = np.repeat([1.0, 2.0, 3.0, 4.0], 20), np.tile([1, 1, 0, 1], 20)
     belief = posterior(Shape(rest="floor"), [1.0, 4.0], shown, hits, catch=(40, 100))
