@@ -62,7 +62,8 @@ def doubts(
         found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
     if not any(one.kind in UNEQUAL for one in found):
         found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
-    return Doubts(assessment, (*_wall_in_air(segments, fit, assessment), *_walls_beyond(trace, fit), *found))
+    in_air = _air_steps(trace) or _wall_in_air(segments, fit, assessment)
+    return Doubts(assessment, (*in_air, *_walls_beyond(trace, fit), *found))
 
 
 def _walls_beyond(trace: Trace, fit: Fit) -> tuple[Cause, ...]:
@@ -76,6 +77,17 @@ def _walls_beyond(trace: Trace, fit: Fit) -> tuple[Cause, ...]:
         f"nothing there. State a number of walls (--membranes {len(surfaces) - len(beyond)})"
     )
     return (Cause("wall_beyond", 0.0, text),)
+
+
+def _air_steps(trace: Trace) -> tuple[Cause, ...]:
+    """A force of the rig that its air shows, and that no model has."""
+    if not any(finding.kind == "air_steps" for finding in trace.findings):
+        return ()
+    text = (
+        "The force in air steps where the needle begins to move, and no friction of the slide that is known here "
+        "explains it (see the finding): walls and values may be its doing. The intervals do not hold"
+    )
+    return (Cause("air_steps", 0.0, text),)
 
 
 def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:

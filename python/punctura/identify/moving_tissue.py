@@ -6,6 +6,7 @@ A swing is no sum to the force: where the needle rests it pushes and pulls, and 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -16,7 +17,6 @@ from punctura.identify.explained import Explained
 from punctura.identify.fit import Fit, Misfit
 from punctura.identify.least_squares import least_squares
 from punctura.identify.parameters import Parameters
-from punctura.trace import Trace
 
 Array = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class _Swinging:
     def _misfit(self, x: Array, p: Parameters) -> Misfit:
         turn = 2 * np.pi * x[-1] * self._since
         depth = self.trace.depth + UNIT * (x[-3] * np.sin(turn) + x[-2] * np.cos(turn))
-        return Misfit(Trace(depth, self.trace.force, self.trace.time, findings=self.trace.findings), p)
+        return Misfit(replace(self.trace, depth=depth, depths=None), p)
 
     def starts(self) -> Iterator[Array]:
         """The swings with which a linear model explains most."""

@@ -94,7 +94,8 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
     slow = min(slow, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
     if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
-    if air.allows(*fit.noise.most_likely()):
+    steps = any(finding.kind == "air_steps" for finding in fit.misfit.trace.findings)  # so it may be no drift
+    if air.allows(*fit.noise.most_likely()) and not steps:
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N. "
             + (
@@ -107,8 +108,9 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
         )
     else:
         yield (
-            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. This is no drift of the "
-            "sensor, whose force in air does not show it. Do not trust the intervals."
+            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. "
+            + ("" if steps else "This is no drift of the sensor, whose force in air does not show it. ")
+            + "Do not trust the intervals."
         )
 
 

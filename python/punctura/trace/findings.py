@@ -52,7 +52,8 @@ def examine(trace: Trace) -> Trace:
     going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
     touching = way_to_tissue(trace, segments.strokes)
     if going_in is not None and touching is not None and _pushed(trace.force[going_in.start : touching.end]):
-        trace = replace(trace, force=-trace.force)
+        friction, cable = trace.rig_sizes
+        trace = replace(trace, force=-trace.force, rig_sizes=(-friction, -cable))
         segments = segment(trace)
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)

@@ -1,12 +1,13 @@
 """Forces that the rig itself adds, as the air shows them: friction of its slide, and a force that grows with the depth.
 
-Only what both ends of a trace show within themselves counts, so a drift between them is neither.
+Friction is 0 in a rest, or stays as it was in the last motion, and rises over a short way where the slide turns. Of
+these forms, the one that leaves less is taken. Only what both ends of a trace show within themselves counts, so a drift
+between them is neither.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,30 +25,73 @@ PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be 
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
 MATTERS = 0.01  # of the range of the force
-ENDING = 2  # kinds of friction that end in a rest
 SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
+WAYS = (0.0, *np.geomspace(2e-6, 3e-4, 16))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
+FINER = 6  # between two of them
+NOISES = 6.0  # of the depth: so far it must go back to turn
+QUICK = 0.3  # of a friction: two samples between which it rises by more tell only when the slide began to move
+BEGIN, LEVEL = 0.08, 0.4  # of the way in, where friction rises and stays; of its step, that is no longer one
+RESTS, SLOWLY = 3, 3.0  # changes in both rests, and times the greatest of them: more is no slow noise
+ITSELF = 1.15  # times the friction that a slide keeps from before: it is no more than itself
 
 
-def _frictions(trace: Trace) -> Iterator[Array]:
-    """What friction of 1 N may add to the force (n, 1), or each way by itself (n, 2), in the order of their simplicity.
+def _ending(trace: Trace) -> tuple[Array, Array]:
+    """What friction of 1 N that ends in a rest adds to the force (n, 1), or each way by itself (n, 2).
 
-    It ends in a rest, or a rest keeps that of the last motion; then the first rest has none, or that of a way out. It
-    is a mean of three samples, because no stroke is known better; at both ends of a rest, the drive moves or brakes.
+    It is a mean of three samples, because no stroke is known better; at both ends of a rest, the drive moves or brakes.
     """
-    ending, keeping, last = np.zeros(len(trace)), np.zeros(len(trace)), 0.0
-    strokes = segment(trace).strokes
-    for stroke in strokes:
-        last = last if stroke.kind == "hold" else 1.0 if stroke.kind == "in" else -1.0
-        keeping[stroke.start : stroke.end] = last
+    found = np.zeros(len(trace))
+    for stroke in segment(trace).strokes:
         if stroke.kind != "hold":
-            ending[max(stroke.start - 1, 0) : stroke.end + 1] = last
-    yield smooth(ending, 3)[:, None]
-    yield np.column_stack((smooth(np.maximum(ending, 0.0), 3), smooth(np.minimum(ending, 0.0), 3)))
-    yield smooth(keeping, 3)[:, None]
-    if strokes[0].kind == "hold":
-        keeping[: strokes[0].end] = -1.0
-        yield smooth(keeping, 3)[:, None]
+            found[max(stroke.start - 1, 0) : stroke.end + 1] = 1.0 if stroke.kind == "in" else -1.0
+    each = np.column_stack((smooth(np.maximum(found, 0.0), 3), smooth(np.minimum(found, 0.0), 3)))
+    return smooth(found, 3)[:, None], each
+
+
+@dataclass(frozen=True)
+class _Slide:
+    """How a slide moves. Noise of the depth is no motion."""
+
+    way: Array  # (n,) m, how far it went in all, from the first sample on
+    turns: NDArray[np.int64]  # (t,) the first sample of each motion in one direction
+    signs: Array  # (t,) 1: inwards
+
+    def kept(self, over: float) -> tuple[Array, Array]:
+        """Friction that a rest keeps and that rises over so many m, in parts of itself (n,): from 0 on, and
+        what is left of the friction before the first sample.
+        """
+        if over == 0:
+            return self._kept_at_once()
+        left = np.exp(-self.way / over)
+        found, last = np.zeros(len(self.way)), 0.0
+        for start, end, sign in zip(self.turns, [*self.turns[1:], len(self.way)], self.signs, strict=True):
+            before = max(int(start) - 1, 0)
+            found[start:end] = sign + (last - sign) * np.exp((self.way[before] - self.way[start:end]) / over)
+            last = found[end - 1]
+        return found, left
+
+    def _kept_at_once(self) -> tuple[Array, Array]:
+        found = np.zeros(len(self.way))
+        for start, sign in zip(self.turns, self.signs, strict=True):
+            found[start:] = sign
+        return found, (self.way == 0).astype(float)
+
+
+def _slide(trace: Trace) -> _Slide:
+    play = NOISES * noise_of(trace.depth)
+    if play == 0:
+        steps = np.diff(trace.depth, prepend=trace.depth[0])
+    else:
+        at, quiet = float(trace.depth[0]), np.empty(len(trace))
+        for i, depth in enumerate(trace.depth.tolist()):
+            at = min(max(at, depth - play / 2), depth + play / 2)
+            quiet[i] = at
+        steps = np.diff(quiet, prepend=quiet[0])
+    moved = np.flatnonzero(steps)
+    signs = np.sign(steps[moved])
+    first = np.flatnonzero(np.diff(signs, prepend=0.0)) if len(moved) else np.empty(0, np.int64)
+    return _Slide(np.cumsum(np.abs(steps)), moved[first], signs[first])
 
 
 def shapes(trace: Trace) -> Array:
@@ -56,22 +100,28 @@ def shapes(trace: Trace) -> Array:
 
 
 def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
-    """The trace without the forces that its air shows, and a finding for each of them."""
+    """The trace without the forces that its air shows, and a finding for each of them.
+
+    Or a finding of friction that is there, and that nothing here explains.
+    """
     begin = float(trace.depth[0])
     way = float(np.ptp(trace.depth[: int(np.argmax(trace.depth)) + 1]))
-    cable = trace.depth - begin
-    frictions = list(_frictions(trace))
+    cable, frictions, slide = trace.depth - begin, _ending(trace), _slide(trace)
+    step = _step(trace, slide, way)
+    unexplained = [_unexplained(step)] if step and _stands_out(trace, slide, way) else []
+    best: list[tuple[Array, _Found, bool]] = []  # friction of 1 N, the sizes, and whether a rest keeps it
     for part in PARTS:
         deep = begin + part * way
-        found_all = [_in_air(trace, np.column_stack((friction, cable)), deep) for friction in frictions]
-        known = [(one, friction) for one, friction in zip(found_all, frictions, strict=True) if one is not None]
-        if known:
+        tried = ((friction, _resting(trace, np.column_stack((friction, cable)), deep)) for friction in frictions)
+        best = [(friction, found, False) for friction, found in tried if found is not None][:1]
+        if step and (stays := _kept(trace, slide, deep)) is not None:
+            best.append((*stays, True))
+        if best:
             break
-    else:
-        return trace, []
-    if any(one is not None for one in found_all[:ENDING]):
-        known = known[:1]
-    (sizes, _), friction = min(known, key=lambda one: one[0][1])
+    if not best:
+        return trace, unexplained
+    friction, chosen, kept = min(best, key=lambda one: one[1].left)
+    sizes = chosen.sizes
     least = MATTERS * float(np.ptp(trace.force))
     rubbed = friction @ sizes[:-1]
     size = float(np.max(np.abs(sizes[:-1])))
@@ -84,64 +134,174 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
         )
     )
     texts = (
-        f"the force in air follows the direction of the motion, by {each}, as friction of the slide makes it; this is "
-        "subtracted",
+        f"the force in air follows the direction of the motion{' and stays in a rest' * kept}, by {each}, as friction "
+        f"of the slide makes it{', or tissue that the needle is in from the beginning' * kept}; this is subtracted",
         f"the force in air changes by {1e-3 * sizes[-1]:+.2g} N a mm on both ways, as a cable that pulls makes it, or "
         "a soft layer that follows the needle; this is subtracted, also deeper in",
     )
     found = [Finding(name, text, True) for name, text, one in zip(RIG_FORCES, texts, seen, strict=True) if one]
-    if not found:
-        return trace, []
+    if not seen[0]:
+        found += unexplained
+    if not seen.any():
+        return trace, found
     rig = np.column_stack((rubbed / max(size, 1e-300), cable)) * seen
-    return replace(trace, force=trace.force - rig @ [size, sizes[-1]], rig=rig), found
+    given = (size * float(seen[0]), float(sizes[-1] * seen[1]))
+    return replace(trace, force=trace.force - rig @ given, rig=rig, rig_sizes=given), found
 
 
-def _in_air(trace: Trace, columns: Array, deep: float) -> tuple[Array, float] | None:
-    """The sizes of these forces (k,), and the change of the zero between both ends, N; None if more stands there.
+def _unexplained(step: float) -> Finding:
+    text = (
+        f"the force in air steps by {step:+.2g} N where the needle begins to move, as friction of the slide makes it, "
+        "and neither friction that is alike on both ways nor a cable explains the air; nothing is subtracted, so the "
+        "model may have walls that are not there. To tell: move the needle over the same depths without tissue"
+    )
+    return Finding("air_steps", text)
 
-    They and noise must be all above the depth `deep`, m. The last one is that of the depth; if it, or the only
-    friction, is not clearly there, it is 0. None if none is.
-    """
+
+def _step(trace: Trace, slide: _Slide, way: float) -> float:
+    """By how much the force steps where the needle begins to move, N; 0 if it does not, or rises on with the depth."""
+    rest, soon, late = _beginning(trace, slide, way)
+    if len(rest) < BLOCK or min(len(soon), len(late)) < 3:
+        return 0.0
+    first, last = float(np.mean(soon) - np.mean(rest)), float(np.mean(late) - np.mean(soon))
+    step, count = first + last, len(soon) + len(late)
+    noise = max(noise_of(trace.force), float(np.std(rest)), rounding(trace.force))
+    blocks = [float(np.mean(rest[i : i + count])) for i in range(0, len(rest) - count + 1, count)]
+    slow = float(np.ptp(blocks)) if len(blocks) > 1 else 0.0
+    sure = SURE * noise * np.sqrt(1 / len(rest) + 1 / count) + SURE / 2 * slow
+    flat = abs(last) < LEVEL * abs(first)
+    return step if flat and abs(step) > max(sure, 2 * MATTERS * float(np.ptp(trace.force))) else 0.0
+
+
+def _beginning(trace: Trace, slide: _Slide, way: float) -> tuple[Array, Array, Array]:
+    """The force in the rest before the first motion, soon after it, and a little later, N."""
+    start = int(slide.turns[0]) if len(slide.turns) else 0
+    gone = slide.way[start:]
+    end = start + int(np.argmax(gone > BEGIN * way)) if gone[-1] > BEGIN * way else start
+    quarter = start + int(np.argmax(gone > 0.25 * BEGIN * way))
+    middle = (quarter + end) // 2
+    return trace.force[: max(start - 1, 0)], trace.force[quarter:middle], trace.force[middle:end]
+
+
+def _stands_out(trace: Trace, slide: _Slide, way: float) -> bool:
+    """Whether the step at the beginning is greater than what slow noise makes in both rests, over the same time."""
+    rest, soon, late = _beginning(trace, slide, way)
+    after = trace.force[int(np.argmax(slide.way == slide.way[-1])) + 1 :]
+    width = max((len(soon) + len(late)) // 2, 3)
+    means = [one[: len(one) // width * width].reshape(-1, width).mean(axis=1) for one in (rest, after)]
+    wander = np.abs(np.concatenate([one[2:] - one[:-2] for one in means]))
+    step = float(np.mean(np.concatenate((soon, late))) - np.mean(rest[-width:]))
+    return len(wander) >= RESTS and abs(step) > SLOWLY * float(wander.max())
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What stands in air: the sizes of RIG_FORCES (2,), those of the other columns, and what is left, N, rms."""
+
+    sizes: Array
+    others: Array
+    left: float
+
+
+def _ends(trace: Trace, deep: float) -> list[slice]:
+    """The samples of both ends that are above the depth `deep`, m, where there are enough."""
     inside = np.flatnonzero(trace.depth > deep)
     if not len(inside):
-        return None
+        return []
     ends = [slice(0, int(inside[0])), slice(int(inside[-1]) + 1, len(trace))]
-    ends = [end for end in ends if end.stop - end.start >= FEWEST]
+    return [end for end in ends if end.stop - end.start >= FEWEST]
+
+
+def _resting(trace: Trace, columns: Array, deep: float) -> _Found | None:
+    """Friction that ends in a rest, and a cable (n, k), if they and noise are all above the depth `deep`, m.
+
+    Each end has a zero of its own. The last column is that of the depth; if it, or the only friction, is not clearly
+    there, it is 0. None if none is, or if more stands there.
+    """
+    ends = _ends(trace, deep)
     if not ends:
         return None
-    rows = np.concatenate([np.arange(end.start, end.stop) for end in ends])
-    own = [np.isin(rows, np.arange(end.start, end.stop)).astype(float) for end in ends]
-    if trace.time is not None:
-        own.append(trace.time[rows] - trace.time[0])
+    own = np.zeros((len(trace), len(ends)))
+    for i, end in enumerate(ends):
+        own[end, i] = 1.0
     ways = [float(np.ptp(trace.depth[end])) for end in ends]
     told = [any(np.ptp(column[end]) > 0 for end in ends) for column in columns.T]
     told[-1] = len(ends) == 2 and ways[1] > BOTH * ways[0]
-    kept = [i for i, one in enumerate(told) if one]
+    rows = np.concatenate([np.arange(end.start, end.stop) for end in ends])
+    longest = 0.0 if trace.time is None else max(float(np.ptp(trace.time[end])) for end in ends)
+    found = _solved(trace, rows, columns, own, [i for i, one in enumerate(told) if one], longest)
     several = columns.shape[1] - 1
+    return None if found is None or (several > 1 and not found.sizes[:several].all()) else found
+
+
+def _kept(trace: Trace, slide: _Slide, deep: float) -> tuple[Array, _Found] | None:
+    """As _resting(), with friction that a rest keeps, and that of 1 N: both ends have one zero.
+
+    It rises over the way with which it leaves least.
+    """
+    ends = _ends(trace, deep)
+    if len(ends) < 2:
+        return None
+    ways, tried = np.array(WAYS), []
+    for _ in range(2):
+        tried = [_kept_over(trace, slide, ends, over) for over in ways]
+        at = int(np.argmin([left for _, _, left in tried]))
+        ways = np.linspace(ways[max(at - 1, 0)], ways[min(at + 1, len(ways) - 1)], 2 * FINER + 1)
+    columns, rows, _ = tried[at]
+    longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
+    told = [0, 1] if np.ptp(trace.depth[ends[1]]) > BOTH * np.ptp(trace.depth[ends[0]]) else [0]
+    found = _solved(trace, rows, columns[:, :2], columns[:, 2:4], told, longest)
+    if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
+        return None
+    return columns[:, :1] + found.others[0] / found.sizes[0] * columns[:, 2:3], found
+
+
+def _kept_over(trace: Trace, slide: _Slide, ends: list[slice], over: float) -> tuple[Array, NDArray[np.int64], float]:
+    """Friction that rises over so many m, cable, friction from before, and one (n, 4); the rows that tell them; what is
+    left there, N, rms.
+    """
+    friction, before = slide.kept(over)
+    columns = np.column_stack((friction, trace.depth - trace.depth[0], before, np.ones(len(trace))))
+    calm = np.abs(np.diff(friction, prepend=friction[0])) + np.abs(np.diff(before, prepend=before[0])) < QUICK
+    calm = np.minimum(calm, np.minimum(np.roll(calm, 1), np.roll(calm, -1)))
+    rows = np.concatenate([np.arange(end.start, end.stop)[calm[end]] for end in ends])
+    known = columns[rows] if trace.time is None else np.column_stack((columns[rows], trace.time[rows]))
+    scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
+    left = trace.force[rows] - known / scale @ np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0]
+    return columns, rows, float(np.sqrt(np.mean(left**2)))
+
+
+def _solved(
+    trace: Trace, rows: NDArray[np.int64], columns: Array, own: Array, told: list[int], longest: float
+) -> _Found | None:
+    """The sizes of the columns (n, m) that are told and clearly there, beside columns (n, k) of their own and a drift.
+
+    longest: s, over which the drift is not even. None if more than noise is left at these rows.
+    """
+    kept = list(told)
+    drift = [] if trace.time is None else [trace.time[rows] - trace.time[0]]
     while kept:
-        known = np.column_stack((columns[rows][:, kept], *own))
+        known = np.column_stack((columns[rows][:, kept], own[rows], *drift))
         scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
         found = np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0]
         left = trace.force[rows] - known / scale @ found
-        noise = _noise(trace, rows, left)
+        noise = _noise(trace, left)
         if noise is None:
             return None
         error = noise * np.sqrt(np.diag(np.linalg.pinv((known / scale).T @ (known / scale))))
-        if trace.time is not None:  # a sensor that drifts in air does not do so evenly
-            longest = max(float(np.ptp(trace.time[end])) for end in ends)
+        if drift:  # a sensor that drifts in air does not do so evenly
             error[: len(kept)] += SLOW * abs(found[-1] / scale[-1]) * longest
         sure = np.abs(found[: len(kept)]) / np.maximum(error[: len(kept)], 1e-300)
         if sure.min() > SURE:
             sizes = np.zeros(columns.shape[1])
             sizes[kept] = (found / scale)[: len(kept)]
-            zeros = (found / scale)[len(kept) : len(kept) + len(ends)]
-            return (sizes, float(np.ptp(zeros))) if several == 1 or sizes[:several].all() else None
+            return _Found(sizes, (found / scale)[len(kept) :], float(np.sqrt(np.mean(left**2))))
         kept.pop(int(np.argmin(sure)))
     return None
 
 
-def _noise(trace: Trace, rows: NDArray[np.int64], left: Array) -> float | None:
-    """The noise of a sample, N, if that is all that is left (m,) at these rows; slow noise counts as it adds up."""
+def _noise(trace: Trace, left: Array) -> float | None:
+    """The noise of a sample, N, if that is all that is left (m,); slow noise counts as it adds up."""
     count = len(left) // BLOCK
     means = left[: count * BLOCK].reshape(count, BLOCK).mean(axis=1)
     white = max(noise_of(left), rounding(trace.force), 1e-12 * float(np.ptp(trace.force)))

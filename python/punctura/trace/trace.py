@@ -65,6 +65,7 @@ class Trace:
     findings: tuple[Finding, ...] = field(default=(), repr=False)  # what is unusual in it
     depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
     rig: Array | None = field(default=None, repr=False)  # (n, 2) shapes of the rig's own forces (rig_force.py), if any
+    rig_sizes: tuple[float, float] = field(default=(0.0, 0.0), repr=False)  # N, N/m, that are subtracted of them
 
     def __post_init__(self) -> None:
         for name in ("depth", "force", "time"):

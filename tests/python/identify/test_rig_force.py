@@ -60,16 +60,45 @@ def keeping(depth, speed, first):
     ("of_rig", "words"),
     [
         (lambda depth, speed: np.select([speed > 1e-5, speed < -1e-5], [0.09, -0.03]), "0.092 N on the way in"),
-        (lambda depth, speed: keeping(depth, speed, 0.0), "by 0.06 N each way"),
-        (lambda depth, speed: keeping(depth, speed, -0.06), "by 0.06 N each way"),
+        (lambda depth, speed: keeping(depth, speed, 0.0), "N each way"),
+        (lambda depth, speed: keeping(depth, speed, -0.06), "N each way"),
     ],
 )
 def test_friction_may_differ_by_the_way_and_a_rest_may_keep_it(of_rig, words):
     trace, plain = rested(of_rig), rested(lambda depth, speed: 0 * depth)
     (told,) = (finding for finding in trace.findings if finding.kind != "offset")
     assert told.kind == "slide_friction" and words in told.text
+    assert trace.rig_sizes[0] == pytest.approx(0.09 if "way in" in words else 0.06, abs=4e-3)
     zero = np.median(trace.force[:100])
-    assert np.sqrt(np.mean((trace.force - zero - plain.force) ** 2)) < 5e-3
+    assert np.sqrt(np.mean((trace.force - zero - plain.force) ** 2)) < NOISE
+
+
+def slid(depth, over, at_first):
+    """Friction of 1 N of a slide that keeps it in a rest; it rises over so many m, and is at_first in the beginning."""
+    force, given = np.empty(len(depth)), at_first
+    for i, step in enumerate(np.diff(depth, prepend=depth[0])):
+        given = np.sign(step) + (given - np.sign(step)) * np.exp(-abs(step) / over) if step else given
+        force[i] = given
+    return force
+
+
+@pytest.mark.parametrize(("over", "at_first"), [(1e-6, 0.0), (5e-5, 0.0), (2e-5, -1.0), (2e-4, 0.0)])
+def test_friction_that_a_rest_keeps_is_subtracted_and_is_no_wall(over, at_first):
+    trace = rested(lambda depth, speed: 0.08 * slid(depth, over, at_first))
+    (told,) = trace.findings
+    assert told.kind == "slide_friction" and "stays in a rest" in told.text
+    assert trace.rig_sizes[0] == pytest.approx(0.08, abs=6e-3)
+    found = identify(trace, NEEDLE, membranes=1)
+    assert found.doubts.sentences == ()
+    assert found.parameters.get("membrane[0].friction") == pytest.approx(MEMBRANE.friction, rel=0.03)
+
+
+def test_a_step_in_air_that_no_friction_explains_is_said_and_the_intervals_do_not_hold():
+    trace = rested(lambda depth, speed: (0.3 + 0.1 * np.sin(depth / 1e-4)) * np.sign(np.round(speed, 6)))
+    assert "air_steps" in kinds(trace) and trace.rig_sizes == (0.0, 0.0)
+    found = identify(trace, NEEDLE, membranes=1)
+    assert any("The intervals do not hold" in str(cause) for cause in found.doubts.causes)
+    assert not any("warm up" in text for text in found.verdicts)
 
 
 def test_a_trace_without_such_a_force_has_none():
