@@ -169,7 +169,7 @@ def test_a_blind_exercise_is_moved_at_once_and_tells_no_depth_to_the_keyboard(pa
             break
         push(page, "ArrowDown", 1)
     dialog = page.get_by_role("dialog")
-    expect(dialog).to_contain_text("Stay behind the second membrane for 2 s")
+    expect(dialog).to_contain_text("Hold the whole tip behind the second membrane for 2 s")
     expect(dialog).to_contain_text("passed")
     expect(dialog).not_to_contain_text("not passed")
     dialog.get_by_role("button", name="Close", exact=True).click()

@@ -2,7 +2,7 @@
 
 import pytest
 from attempts import hand_run, judged, tried
-from punctura.exercise import exercise_names, exercises, load_exercise
+from punctura.exercise import Attempt, exercise_names, exercises, load_exercise
 
 WAIT = (1.0, 0.0)
 # mm along the needle from the start: the skin at 10, the front wall at 19.6, the back wall at 26.4.
@@ -189,4 +189,16 @@ def test_whoever_must_still_push_is_not_told_to_stay():
         attempt.add({name: column[k : k + 20] for name, column in columns.items()})
         if attempt.status.instruction not in heard:
             heard.append(attempt.status.instruction)
-    assert heard[:2] == [exercise.instruction, "Stay behind the membrane for 2 s. Hold still."]
+    assert heard[:2] == [exercise.instruction, "Hold the whole tip behind the membrane for 2 s. Hold still."]
+
+
+def test_a_stay_of_the_whole_tip_says_so():
+    """Else the point alone in the space counts for nothing, and no word says why."""
+    stays = [
+        state.text
+        for exercise in exercises()
+        for goal, state in zip(exercise.goals, Attempt(exercise, exercise.scene).goals, strict=True)
+        if goal.kind == "stay" and goal.whole_tip
+    ]
+    assert "Hold the whole tip in the epidural space for 3 s" in stays  # without a text of its own
+    assert all("he whole tip" in text for text in stays)

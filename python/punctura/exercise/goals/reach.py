@@ -55,7 +55,8 @@ class Stay(Goal):
 
 class StayJudge(Achievement):
     def __init__(self, goal: Stay, space: TargetSpace) -> None:
-        super().__init__(goal.text or f"Stay in {space.name} for {goal.seconds:g} s")
+        what = "Hold the whole tip in" if goal.whole_tip else "Stay in"
+        super().__init__(goal.text or f"{what} {space.name} for {goal.seconds:g} s")
         self.seconds, self.whole_tip = goal.seconds, goal.whole_tip
         self.staying = False  # in the last tick
 
