@@ -2,9 +2,10 @@ import { handOf } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import type { App } from "../state/app.ts";
-import { remember, remembered } from "../state/remembered.ts";
+import { pageOf } from "../state/page.ts";
+import { remember } from "../state/remembered.ts";
 import { askSound } from "./hand/sound.ts";
-import { Progress, TASKS } from "./tour/progress.ts";
+import { Progress, TASKS, tourDone } from "./tour/progress.ts";
 import { instruction, NAMES } from "./tour/words.ts";
 
 let begin: () => void = () => {};
@@ -25,14 +26,11 @@ export const tour: Panel = (root, app) => {
     end = show(root, app);
   };
   askSound(root, app);
-  if (remembered("tour")) return;
-  // It starts with the first scene, when there is something to do.
-  const stop = app.live.scene.watch((scene) => {
-    if (!scene) return;
-    setTimeout(() => {
-      stop();
-      end = show(root, app);
-    });
+  // It starts on the bench, with the first ticks, when there is something to do, and all earlier events are here.
+  const stop = everyFrame(() => {
+    if (pageOf(app).value !== "bench" || app.live.history.length === 0) return;
+    stop();
+    if (!tourDone(app.live)) end = show(root, app);
   });
 };
 

@@ -8,6 +8,7 @@ const STEP = 0.25e-3; // m, of a key that is pressed
 const LONG = 4;
 const TURN = Math.PI / 90;
 const STEPS_PER_S = 30; // while it is held: 7.5 mm/s, with Shift 30 mm/s, or 60°/s
+const HELD_MS = 400; // a key that is down for less is a tap
 const LONGEST_MS = 250; // of a frame: a page that stalled does not make up for it with a jump
 
 /** The keys and their actions, for the list on the page. */
@@ -53,10 +54,10 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
   };
   const keyOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
   /**
-   * The held keys that move the needle, with the time until which each has moved it, ms; null: it may be a tap. That it
-   * is held is known from the keyboard's first repeat, or from another key: then the keyboard repeats only that one.
+   * The keys that are down and move the needle, with the time until which each has moved it, ms. At first that time is
+   * to come: it may be a tap. A repeat of the keyboard or another key tells before it that the key is held.
    */
-  const held = new Map<string, number | null>();
+  const held = new Map<string, number>();
   const release = (): void => {
     held.clear();
     thumb.push("key", 0);
@@ -74,17 +75,17 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     // A key held since an earlier run must be released first.
     if (!event.repeat) run = hand.run;
     else if (run !== hand.run) return;
-    for (const [each, until] of held)
-      if (until === null && (each !== key || event.repeat)) held.set(each, performance.now());
+    const now = performance.now();
+    for (const [each, until] of held) if (each !== key || event.repeat) held.set(each, Math.min(until, now));
     act?.();
     if (!move || event.repeat) return;
     move(1);
-    held.set(key, null);
+    held.set(key, now + HELD_MS);
   });
   everyFrame((now) => {
     if (run !== hand.run) held.clear();
     for (const [key, until] of held) {
-      if (until === null || now <= until) continue;
+      if (now <= until) continue;
       moves[key]!((Math.min(now - until, LONGEST_MS) / 1e3) * STEPS_PER_S);
       held.set(key, now);
     }

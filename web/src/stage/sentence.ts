@@ -7,18 +7,20 @@ import { remember, remembered } from "../state/remembered.ts";
 import { type Band, bandAt } from "../tissue/bands.ts";
 import type { Felt } from "./attempt.ts";
 
-const TO_MOVE = "To move it here, press More and then Take control.";
-
 /** The one sentence of the stage: what is, or what to do next, as the needle is now. */
 export class Sentence {
   private readonly progress = new Progress();
   private readonly learnt = remembered("tour") !== null; // in an earlier visit
+
+  /** Whether the last sentence was that another page, or none, moves the needle: then this page may take over. */
+  offersControl = false;
 
   constructor(private readonly app: App) {}
 
   /** now: of the needle; null if it is not known, or must not be told. */
   words(bands: readonly Band[], now: Felt | null): string {
     const { app, progress } = this;
+    this.offersControl = false;
     if (app.sitting.value) return app.sitting.value.sentence;
     const { excerpt, paused, live, title } = app.source.value;
     const simulated = app.hello.value?.device.simulated ?? true;
@@ -34,11 +36,15 @@ export class Sentence {
     if (paused) return "Paused; the run goes on.";
     if (!live) return `Replay of ${title}`;
     const barred = simulated ? handOf(app).barred.value : null;
-    const { you, holder } = app.control.value;
+    const { you } = app.control.value;
     const watches = barred !== null && !you && app.connection.value.state === "open";
     if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
-    if (watches) return place(bands, now) || (holder === null ? `${barred} ${TO_MOVE}` : barred);
+    if (watches) {
+      const where = place(bands, now);
+      this.offersControl = where === "";
+      return where || barred;
+    }
     if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated, true);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }

@@ -1,3 +1,4 @@
+import { takeControl } from "../controls/control_line.ts";
 import { fixedNumber, newton } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import { button, element, everyFrame, type Panel } from "../panel.ts";
@@ -25,6 +26,7 @@ export const stage: Panel = (root, app) => {
   const view = root.querySelector<HTMLElement>(":scope > .view")!;
   const picture = view.querySelector<HTMLElement>(".view-main > canvas")!; // hidden without WebGL
   const words = element("p", { class: "stage-sentence", role: "status" });
+  const take = element("span", { hidden: true }, takeControl(app));
   const force = element("output", { class: "stage-number" });
   const name = element("span", { class: "stage-name" });
   const syringe = element("span", { class: "stage-name" });
@@ -51,7 +53,7 @@ export const stage: Panel = (root, app) => {
     "section",
     { class: "stage", "aria-label": "Stage" },
     element("h1", { class: "only-read" }, "Punctura"),
-    words,
+    element("div", { class: "stage-words" }, words, take),
     element("div", { class: "stage-force" }, force, name, syringe),
     free,
     curve.root,
@@ -124,6 +126,7 @@ export const stage: Panel = (root, app) => {
     if (time - wordsAt < WORDS_MS) return;
     wordsAt = time;
     write(words, sentence.words(bands, hidden ? null : now));
+    take.hidden = !sentence.offersControl;
     write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
     write(name, tick === null ? "" : feltForce(scaleOf(source.value)));
     const told = built?.syringe && tick !== null && !app.blind;

@@ -59,6 +59,17 @@ it("a tap is one step; a held key moves by time, whatever the keyboard repeats a
   expect(deep()).toBeCloseTo(7.5e-3 - 1.5e-3, 9);
 });
 
+it("a key that stays down moves by time after 0.4 s, also if the keyboard repeats nothing", () => {
+  key("keydown", "ArrowDown");
+  frame(400);
+  expect(deep()).toBeCloseTo(0.25e-3, 12);
+  frame(600);
+  expect(deep()).toBeCloseTo(0.25e-3 + 1.5e-3, 9);
+  key("keyup", "ArrowDown");
+  frame(800);
+  expect(deep()).toBeCloseTo(0.25e-3 + 1.5e-3, 9);
+});
+
 it("a page that stalled does not jump, and a view that loses the focus moves nothing", () => {
   key("keydown", "ArrowDown");
   key("keydown", "ArrowDown", { repeat: true });

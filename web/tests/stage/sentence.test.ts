@@ -30,15 +30,19 @@ it("a page that looks on tells what happens, and not only that it has no control
   const sentence = new Sentence(app);
   control(false, 3);
   expect(sentence.words([SKIN], INSIDE)).toBe("The tip is in the skin, 1 mm deep.");
+  expect(sentence.offersControl).toBe(false);
   expect(sentence.words([SKIN], null)).toBe("Another page moves the needle.");
+  expect(sentence.offersControl).toBe(true); // the button Take control stands beside it
   app.exercise.value = { running: true, instruction: "Push slowly." } as ExerciseStatus;
   expect(sentence.words([SKIN], INSIDE)).toBe("Push slowly.");
+  expect(sentence.offersControl).toBe(false);
 });
 
 it("tells who could move the needle, and that the studio is gone", () => {
   const sentence = new Sentence(app);
   control(false, null);
-  expect(sentence.words([SKIN], null)).toContain("press More and then Take control");
+  expect(sentence.words([SKIN], null)).toBe("Nobody moves the needle.");
+  expect(sentence.offersControl).toBe(true);
   server.connection({ state: "closed", retry: 0 } as never);
   expect(sentence.words([SKIN], INSIDE)).toBe("The studio is not connected.");
 });

@@ -1,3 +1,4 @@
+import { remembered } from "../../state/remembered.ts";
 import { fallOf } from "../../state/scale.ts";
 import type { Source } from "../../state/source.ts";
 import type { MembraneEvent } from "../../wire/messages.ts";
@@ -9,6 +10,10 @@ export const TASKS = ["touch", "hold", "pop", "back"] as const;
 const OUTSIDE = codeOf("phase", "outside");
 /** The tissue has been felt when it pushes with this share of the greatest force of its law. */
 const FELT = 0.5;
+
+/** Whether nobody needs the tour: it was seen in this browser, or a pop was made in this run, as on the stage. */
+export const tourDone = ({ events }: Source): boolean =>
+  remembered("tour") !== null || events.value.some(({ what }) => what === "pop");
 
 /** What a person has done of the tour, from the ticks and events of a run. */
 export class Progress {

@@ -1,5 +1,5 @@
-import { beforeEach, expect, it } from "vitest";
-import { Progress } from "../../../src/controls/tour/progress.ts";
+import { beforeEach, expect, it, vi } from "vitest";
+import { Progress, tourDone } from "../../../src/controls/tour/progress.ts";
 import { Source } from "../../../src/state/source.ts";
 import type { LawCurve, MembraneEvent } from "../../../src/wire/messages.ts";
 import { codeOf } from "../../../src/wire/ticks.ts";
@@ -89,4 +89,15 @@ it("a new run goes on with what is left to do", () => {
   pop();
   ticks(1, true, 0.1);
   expect(progress.done).toBe(3);
+});
+
+it("after a pop in the run nobody needs the tour, nor after an earlier visit that saw it", () => {
+  vi.stubGlobal("document", { cookie: "" });
+  expect(tourDone(source)).toBe(false);
+  vi.stubGlobal("document", { cookie: "punctura_tour=seen" });
+  expect(tourDone(source)).toBe(true);
+  vi.stubGlobal("document", { cookie: "" });
+  pop();
+  expect(tourDone(source)).toBe(true);
+  vi.unstubAllGlobals();
 });
