@@ -39,6 +39,18 @@ ROWS = """() => {
   return rows.size;
 }"""
 
+# Nothing of the view is seen through the curve: left, at the numbers of the depth, and right.
+OPAQUE = """() => {
+  const canvas = document.querySelector(".stage-curve canvas");
+  const {width, height} = canvas;
+  const row = canvas.getContext("2d").getImageData(0, Math.floor(0.8 * height), width, 1).data;
+  return row.length > 0 && row.every((value, i) => i % 4 < 3 || value === 255);
+}"""
+GOAL_WHOLE = """() => {
+  const label = document.querySelector(".view-label.goal");
+  return label.hidden || label.scrollWidth <= label.clientWidth;
+}"""
+
 # The seconds that twelve frames of the browser take, and what is drawn in them.
 DRAWN_MEANWHILE = """() => new Promise((done) => {
   const [before, from] = [{...drawn}, performance.now()];
@@ -89,6 +101,7 @@ def test_the_stage_opens_with_three_buttons_and_the_needle_whole_and_the_bench_i
         page.set_viewport_size({"width": size[0], "height": size[1]})
         page.wait_for_function(WORDS_WHOLE)
         page.wait_for_function(NEEDLE_WHOLE)
+        page.wait_for_function(OPAQUE)
         assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
     page.set_viewport_size({"width": 1440, "height": 900})
 
@@ -217,6 +230,7 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
         page.wait_for_function(WORDS_WHOLE)
         page.wait_for_function(NEEDLE_WHOLE)
         page.wait_for_function("document.querySelector('.stage-free').clientHeight > 0.25 * innerHeight")
+        page.wait_for_function(GOAL_WHOLE)
     hold = running.get_by_text("Hold the whole tip behind the membrane")
     expect(hold).to_be_hidden()  # a phone has no room for what is to come
     page.set_viewport_size({"width": 1440, "height": 900})

@@ -1,3 +1,4 @@
+import { unbroken } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import { SHOW_AGAIN, showAgain } from "../pop/again.ts";
@@ -60,7 +61,7 @@ function show(root: HTMLElement, app: App): () => void {
     const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";
     const slow = app.source.value.excerpt !== null;
     const barred = simulated && !slow && done < TASKS.length ? hand.barred.value : null;
-    const text = slow ? "This was the pop, slowly." : (barred ?? instruction(progress, skin, simulated));
+    const text = slow ? "This was the pop, slowly." : (barred ?? unbroken(instruction(progress, skin, simulated)));
     if (words.textContent !== text) words.textContent = text;
     again.hidden = done < TASKS.length || progress.pop === null;
     close.textContent = done < TASKS.length ? "Skip the tour" : "Done";

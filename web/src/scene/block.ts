@@ -4,7 +4,7 @@ import type { Window } from "../tissue/grid.ts";
 import { type Layer, layersOf, type Vessel, vesselOf } from "../tissue/layers.ts";
 import { cutSheet, endSheet, surfaceSheet } from "../tissue/sheet.ts";
 import type { SceneView } from "../wire/messages.ts";
-import { Cut } from "./cut.ts";
+import { Cut, DEEP } from "./cut.ts";
 import { CutFace } from "./cut_face.ts";
 import { Ends } from "./ends.ts";
 import { gripsOf } from "./grips.ts";
@@ -19,7 +19,6 @@ import { Tracks } from "./tracks.ts";
 
 const PIXELS_ACROSS = 1024; // of the painted cut
 const PAINT_MS = 7; // per frame, until all sheets are painted
-const DEEP = 0.8; // of the block behind the cut, as a share of half its width
 
 interface Parts {
   readonly layers: readonly Layer[];
@@ -166,9 +165,9 @@ export class Block {
     );
   }
 
-  /** The middle of its upper edge at the cut, where it is drawn now, mm. */
+  /** The middle of its upper face behind the cut, where it is drawn now, mm. */
   get middle(): Vector3 {
-    return this.cut.point(this.cut.centre, 0, this.cut.w);
+    return this.cut.point(this.cut.centre, 0, this.cut.w - (DEEP * this.size) / 2);
   }
 
   /** Depth of its lower face, mm. */

@@ -6,6 +6,8 @@ import { tangents } from "./slab_shape.ts";
 /** Tilts of the needle (sine) between which the cut turns to follow it. */
 const UPRIGHT = Math.sin(MathUtils.degToRad(14));
 const TILTED = Math.sin(MathUtils.degToRad(28));
+/** What is drawn behind the cut, as a share of half its width. */
+export const DEEP = 0.8;
 /** How far entry and tip may leave the middle before the drawn part follows, as shares of half its width. */
 const FREE_ENTRY = 0.45;
 const FREE_TIP = 0.75;

@@ -1,6 +1,7 @@
 import { BoxGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import type { Goal } from "../state/app.ts";
 import type { SceneView } from "../wire/messages.ts";
+import { DEEP } from "./cut.ts";
 import { FatLine } from "./fat_line.ts";
 import { MM } from "./moment.ts";
 import type { Theme } from "./theme.ts";
@@ -61,7 +62,7 @@ export class GoalMark {
       .multiplyScalar(MM)
       .addScaledVector(normal, (top + bottom) / 2);
     this.band.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, -1, 0), normal));
-    this.band.scale.set(side, bottom - top, side);
+    this.band.scale.set(side, bottom - top, this.inTissue ? SHARE * DEEP * size : side);
     this.from.copy(this.band.position);
     this.middle.copy(this.from);
     if (!goal.line) {
@@ -84,12 +85,20 @@ export class GoalMark {
     this.middle.copy(this.from);
   }
 
-  /** Moves it to the middle of the drawn tissue, mm, which follows the needle: along its line, or along the surface. */
-  follow(middle: Vector3): void {
+  /**
+   * Moves it to the middle of the drawn tissue, mm, which follows the needle: along its line, or along the surface.
+   * cut: the direction along the surface in which the tissue is cut open.
+   */
+  follow(middle: Vector3, cut: Vector3): void {
     const { along, normal } = this;
     const way = middle.clone().sub(this.from);
     if (along) way.copy(along).multiplyScalar(middle.clone().sub(this.from).dot(along));
-    else way.addScaledVector(normal, -way.dot(normal));
+    else {
+      way.addScaledVector(normal, -way.dot(normal));
+      const up = normal.clone().negate();
+      const axes = new Matrix4().makeBasis(cut, up, new Vector3().crossVectors(cut, up));
+      this.band.quaternion.setFromRotationMatrix(axes);
+    }
     this.group.position.copy(way);
     this.middle.copy(this.from).add(way);
   }

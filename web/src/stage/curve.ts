@@ -87,6 +87,7 @@ export class CurvePicture {
       this.points = 0;
       this.arrange(shown);
       this.pen.begin(width, height, devicePixelRatio);
+      this.drawGround(theme);
       this.drawBands(bands, theme);
       this.drawAxes(bands, theme);
     }
@@ -139,6 +140,15 @@ export class CurvePicture {
     this.depth = (mm) => from + (mm / deep) * (this.height - EDGE - from);
   }
 
+  /** The tissue and the trail of the view follow the needle, and would come under the numbers and the curve. */
+  private drawGround(theme: Theme): void {
+    const { pen, width, height, depth, letter } = this;
+    // The numbers of the force stand above the skin.
+    this.axis = Math.max(TOP * letter, Math.min(depth(0) - 2 * letter, height));
+    const top = this.axis - TOP * letter;
+    pen.box(0, top, width, height - top, theme.panel, 1);
+  }
+
   private drawBands(bands: readonly Band[], theme: Theme): void {
     const { pen, width, depth, height, letter } = this;
     for (const { tone, membrane, top, bottom } of bands) {
@@ -156,14 +166,11 @@ export class CurvePicture {
   }
 
   private drawAxes(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, height, force, depth, letter } = this;
+    const { pen, width, height, force, depth, letter, axis } = this;
     const deep = bands.at(-1)?.bottom ?? 10;
     const quiet = { colour: theme.quiet, size: letter - 1 } as const;
     const skin = depth(0);
     const end = Math.min(height, depth(deep));
-    // The numbers of the force stand above the skin.
-    const axis = Math.max(TOP * letter, Math.min(skin - 2 * letter, height));
-    this.axis = axis;
     const step = niceStep(force.max - force.min, Math.max(2, width / 110));
     for (const value of ticks(force.min, force.max, step)) {
       const x = Math.round(force.px(value)) + 0.5;
@@ -176,14 +183,13 @@ export class CurvePicture {
       if (x < width - 14) pen.text(x, axis - 0.7 * letter, label(value, step), { ...quiet, anchor: "middle" });
     }
     pen.text(AXIS, axis - 2 * letter, "felt force, N", { ...quiet, colour: theme.text });
-    pen.text(2, skin - letter, "depth, mm", { ...quiet, colour: theme.text, halo: theme.panel });
+    pen.text(2, skin - letter, "depth, mm", { ...quiet, colour: theme.text });
     const down = niceStep(deep, Math.max(2, (depth(deep) - skin) / 44));
     for (const value of ticks(0, deep, down)) {
       const y = Math.round(depth(value)) + 0.5;
       if (y > height - 5) break;
       pen.segment(AXIS - 4, y, AXIS, y, { colour: theme.quiet, width: 1 });
-      // The tissue follows the needle, and may come under the numbers.
-      pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end", halo: theme.panel });
+      pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
     }
   }
 

@@ -1,6 +1,6 @@
 import { Progress, TASKS } from "../controls/tour/progress.ts";
 import { instruction } from "../controls/tour/words.ts";
-import { mm } from "../format.ts";
+import { mm, unbroken } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import type { App } from "../state/app.ts";
 import { remember, remembered } from "../state/remembered.ts";
@@ -19,6 +19,10 @@ export class Sentence {
 
   /** now: of the needle; null if it is not known, or must not be told. */
   words(bands: readonly Band[], now: Felt | null): string {
+    return unbroken(this.said(bands, now));
+  }
+
+  private said(bands: readonly Band[], now: Felt | null): string {
     const { app, progress } = this;
     this.offersControl = false;
     if (app.sitting.value) return app.sitting.value.sentence;

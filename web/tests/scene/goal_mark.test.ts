@@ -31,15 +31,26 @@ test("the mark stays in the drawn tissue, which follows the needle, and on its l
   const mark = new GoalMark(theme);
   const show = (line: GoalLine | null): void => mark.show({ name: "a", top: 0.005, bottom: 0.008, line }, scene, 10);
   show(null);
-  mark.follow(new Vector3(-7, 1, 2));
+  mark.follow(new Vector3(-7, 1, 2), new Vector3(1, 0, 0));
   expect(mark.group.position.toArray()).toEqual([-7, 0, 2]);
   expect(mark.middle.toArray()).toEqual([-7, 1 - 6.5, 2]);
   show({ point: [0, -0.0055, 0.004], along: [1, 0, 0], within: 0.001 });
   expect(mark.group.position.length()).toBe(0);
-  mark.follow(new Vector3(-7, 1, 2));
+  mark.follow(new Vector3(-7, 1, 2), new Vector3(1, 0, 0));
   expect(mark.group.position.toArray().map((x) => x + 0)).toEqual([-7, 0, 0]);
   expect(mark.middle.x).toBeCloseTo(-7);
   expect(mark.middle.z).toBeCloseTo(4);
+});
+
+test("in tissue that is cut open, the band ends behind the cut, however that is turned", () => {
+  const mark = new GoalMark(theme);
+  mark.show({ name: "a", top: 0.005, bottom: 0.008, line: null }, scene, 10, 9);
+  mark.follow(new Vector3(-4, 1, 0), new Vector3(0, 0, 1)); // of 8 mm behind the cut
+  const band = mark.group.children[0] as Mesh;
+  const size = new Vector3(0, 0, 1).multiply(band.scale).applyQuaternion(band.quaternion);
+  expect(Math.abs(size.x)).toBeGreaterThan(4);
+  expect(Math.abs(size.x)).toBeLessThan(8);
+  expect(mark.group.position.x).toBeCloseTo(-4);
 });
 
 test("the band of a line lies around the line, as wide as the point may be beside it", () => {

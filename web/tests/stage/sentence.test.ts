@@ -29,7 +29,7 @@ beforeEach(() => {
 it("a page that looks on tells what happens, and not only that it has no control", () => {
   const sentence = new Sentence(app);
   control(false, 3);
-  expect(sentence.words([SKIN], INSIDE)).toBe("The tip is in the skin, 1 mm deep.");
+  expect(sentence.words([SKIN], INSIDE)).toBe("The tip is in the skin, 1\u00a0mm deep.");
   expect(sentence.offersControl).toBe(false);
   expect(sentence.words([SKIN], null)).toBe("Another page moves the needle.");
   expect(sentence.offersControl).toBe(true); // the button Take control stands beside it

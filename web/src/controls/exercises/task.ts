@@ -1,3 +1,4 @@
+import { unbroken } from "../../format.ts";
 import { button, element, named } from "../../panel.ts";
 import type { App } from "../../state/app.ts";
 import type { ExerciseOverview, ExerciseStatus } from "../../wire/messages.ts";
@@ -61,7 +62,8 @@ export function taskBar(host: HTMLElement, app: App, titleOf: (name: string) => 
     begin();
     if (!status || !running) return;
     showTitle();
-    if (instruction.textContent !== status.instruction) instruction.textContent = status.instruction;
+    const words = unbroken(status.instruction);
+    if (instruction.textContent !== words) instruction.textContent = words;
     clock.textContent = clockText(status);
     ring.show(status);
     const states = JSON.stringify(status.goals);
