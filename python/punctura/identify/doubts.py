@@ -91,17 +91,21 @@ def _air_steps(trace: Trace) -> tuple[Cause, ...]:
 
 
 def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:
-    """A wall that the model has where the trace is in air: there, only the zero of the sensor can change."""
-    if segments.contact is None:
-        return ()
+    """A wall that the model has where the trace is in air: there, only the zero of the sensor and the rig change it."""
     tissue = fit.misfit.forces(fit.parameters.with_values(dict.fromkeys(ZERO, 0.0)))
-    force = float(np.max(np.abs(tissue[: int(IN_AIR * segments.contact) + 1])))
+    if segments.contact is not None:
+        there, where = tissue[: int(IN_AIR * segments.contact) + 1], "in front of the contact"
+    elif segments.exit is not None:
+        there, where = tissue[len(tissue) - int(IN_AIR * (len(tissue) - segments.exit)) :], "behind the last way out"
+    else:
+        return ()
+    force = float(np.max(np.abs(there)))
     if force < max(assessment.noise, MATTERS * assessment.peak):
         return ()
     text = (
-        f"The model has {force:.2g} N of tissue in front of the contact, where the needle is in air: such a wall is a "
-        "change of the sensor's zero, and the others follow from it. To tell: let the sensor warm up, and repeat the "
-        "insertion"
+        f"The model has {force:.2g} N of tissue {where}, where the needle is in air: such a wall is a change of the "
+        "sensor's zero or a force of the rig, and the others follow from it. The intervals do not hold. To tell: let "
+        "the sensor warm up, move the needle over the same depths without tissue, and repeat the insertion"
     )
     return (Cause("wall_in_air", 0.0, text),)
 

@@ -198,6 +198,8 @@ def test_a_wall_that_cannot_be_there_is_named_and_one_beyond_is_left_out_first(p
     two = replace(start, membranes=np.vstack((start.membranes, far)))
     whole = fit(Misfit(made, two), ("offset",), two)
     assert kind in [one.kind for one in doubts(made, segment(made), whole, ()).causes]
+    begun = replace(segment(made), contact=None)  # the air behind the way out tells it, too
+    assert kind in [one.kind for one in doubts(made, begun, whole, ()).causes]
     if kind == "wall_beyond":
         (fewer,) = without_a_wall(whole, segment(made))
         assert np.array_equal(fewer.membranes, start.membranes)
