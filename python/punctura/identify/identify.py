@@ -17,7 +17,7 @@ from punctura.identify.doubts import Doubts, doubts
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.growing_noise import with_growing_noise
-from punctura.identify.intervals import Estimate, estimates
+from punctura.identify.intervals import Estimate, estimates, with_subtracted
 from punctura.identify.late_sensor import late_words, not_told_apart
 from punctura.identify.model import Model
 from punctura.identify.moves import with_contacts_moved, with_pops_moved
@@ -195,6 +195,7 @@ def _identified(
     )
     advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice)
     advice += (*([MORE_OPTIMA] if more else []), *([ENDED] if choice.search.ended else []))
+    found = with_subtracted(found, trace)
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))
 
 

@@ -15,7 +15,8 @@ from punctura.identify.parameters import NUISANCE, UNITS, Parameters, kind_of
 from punctura.identify.profile import Watch, bound
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import Uncertainty
-from punctura.trace import TraceError
+from punctura.trace import Trace, TraceError
+from punctura.trace.rig_force import RIG_FORCES
 
 Array = NDArray[np.float64]
 
@@ -70,6 +71,21 @@ def estimates(
     if not outwards or all(estimate.identifiable for estimate in found):
         return tuple(found)
     return tuple(_searched_again(main, j, estimate, others, watch) for j, estimate in enumerate(found))
+
+
+def with_subtracted(found: Sequence[Estimate], trace: Trace) -> tuple[Estimate, ...]:
+    """The estimates; that of a force of the rig is the sum of what is subtracted from the trace and what the fit adds."""
+    sizes = dict(zip(RIG_FORCES, trace.rig_sizes, strict=True))
+    return tuple(
+        replace(
+            one,
+            value=one.value + size,
+            low=None if one.low is None else one.low + size,
+            high=None if one.high is None else one.high + size,
+        )
+        for one in found
+        for size in [sizes.get(one.name, 0.0)]
+    )
 
 
 def _widest(fit: Fit, name: str) -> float:
