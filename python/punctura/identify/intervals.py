@@ -74,7 +74,7 @@ def estimates(
 
 
 def with_subtracted(found: Sequence[Estimate], trace: Trace) -> tuple[Estimate, ...]:
-    """The estimates; that of a force of the rig is the sum of what is subtracted from the trace and what the fit adds."""
+    """The estimates; that of a force of the rig is the sum of what is subtracted and what the fit adds."""
     sizes = dict(zip(RIG_FORCES, trace.rig_sizes, strict=True))
     return tuple(
         replace(
