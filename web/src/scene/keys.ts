@@ -78,9 +78,9 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     const now = performance.now();
     for (const [each, until] of held) if (each !== key || event.repeat) held.set(each, Math.min(until, now));
     act?.();
-    if (!move || event.repeat) return;
-    move(1);
-    held.set(key, now + HELD_MS);
+    if (!move || held.has(key)) return;
+    if (!event.repeat) move(1);
+    held.set(key, event.repeat ? now : now + HELD_MS); // a repeat: the focus was away while the key was down
   });
   everyFrame((now) => {
     if (run !== hand.run) held.clear();

@@ -100,6 +100,15 @@ it("PageDown and PageUp move towards the user and back along the skin, with Shif
   expect(moves).toEqual([[0, 0, 0.25e-3], [-0, -0, -1e-3]]); // biome-ignore format: short
 });
 
+it("a key that is still down when the focus comes back moves on", () => {
+  key("keydown", "ArrowDown");
+  canvas.dispatchEvent(new Event("blur"));
+  key("keydown", "ArrowDown", { repeat: true });
+  const before = deep();
+  frame(100);
+  expect(deep()).toBeCloseTo(before + 0.75e-3, 12);
+});
+
 it("Space pushes the plunger while it is held, and losing the focus lets go", () => {
   key("keydown", " ");
   key("keyup", " ");
