@@ -37,9 +37,8 @@ export class Moment {
   thumbForce = Number.NaN;
   membranes: MembraneMoment[] = [];
 
-  /** Reads the source's shown tick. Returns false before its first tick. */
-  read(source: Source): boolean {
-    const tick = source.shown();
+  /** Reads a tick of the source, by default the shown one. Returns false before its first tick. */
+  read(source: Source, tick = source.shown()): boolean {
     if (tick === null) return false;
     const { history } = source;
     this.tick = tick;

@@ -10,10 +10,11 @@ import {
   MeshLambertMaterial,
   Vector3,
 } from "three";
+import type { Source } from "../state/source.ts";
 import type { LawCurve, SceneView } from "../wire/messages.ts";
 import { placeNeedle } from "./bevel.ts";
 import { HUB_MM, HUB_RADIUS_MM, Hub } from "./hub.ts";
-import { MM, type Moment } from "./moment.ts";
+import { MM, Moment } from "./moment.ts";
 import { Level } from "./needle_level.ts";
 import { type NeedleLook, needleLook, tipOffset } from "./needle_look.ts";
 import { faceShape, shaftShape } from "./needle_shape.ts";
@@ -30,6 +31,9 @@ const MOST_MARKS = 12;
 const FILLS = 2.9;
 const DRAINS = 0.7;
 const YIELDS = 1.1;
+/** A level forgets what was so long ago; steps between two ticks of it. s */
+const LASTS = 6;
+const STEP = 0.1;
 
 const ALONG = Math.cos(Math.PI / 9);
 
@@ -80,6 +84,7 @@ export class Needle {
   private readonly hub: Hub;
   private readonly syringe: Syringe;
   private readonly blood = new Level();
+  private readonly past = new Moment();
   private readonly pressed = new Level();
   private readonly middle = new Vector3();
   private readonly ahead = new Vector3();
@@ -162,8 +167,22 @@ export class Needle {
     return { look, diameter, content, plunger, syringe: size, blood: this.blood.value, pressed: this.pressed.value };
   }
 
-  /** Shows blood at the bore's mouth and in the hub, and moves the plunger. Returns whether the picture changes. */
-  step(moment: Moment, scene: SceneView, laws: readonly LawCurve[]): boolean {
+  /**
+   * Shows blood at the bore's mouth and in the hub, and moves the plunger, as at the source's moment. A replay that
+   * begins or jumps shows what came before it. Returns whether the picture changes.
+   */
+  follow(source: Source, moment: Moment, scene: SceneView): boolean {
+    const laws = source.laws.value;
+    const jumps = this.blood.jumps(moment.time);
+    const steps = jumps ? LASTS / STEP : 0;
+    for (let k = steps; k > 0; k--) {
+      const tick = moment.tick - Math.round(k * STEP * scene.rate);
+      if (tick >= source.history.first && this.past.read(source, tick)) this.step(this.past, scene, laws);
+    }
+    return this.step(moment, scene, laws) || jumps;
+  }
+
+  private step(moment: Moment, scene: SceneView, laws: readonly LawCurve[]): boolean {
     const { content, open } = atTip(moment, scene, laws);
     const before = this.content;
     this.content = content;

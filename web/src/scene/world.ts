@@ -124,7 +124,7 @@ export class World {
     changed = this.block.update(moment, this.holes, camera, pixel) || changed;
     if (this.block.shown) this.mark.follow(this.block.middle, this.block.cut.along);
     changed = this.blood.update(this.membranes, moment.axis) || changed;
-    changed = this.needle.step(moment, scene, source.laws.value) || changed;
+    changed = this.needle.follow(source, moment, scene) || changed;
     if (!this.differs(this.values(target, pixel), changed)) return false;
     this.needle.place(moment.tip, moment.axis);
     this.trail.update(source, moment.tick, scene.rate);
