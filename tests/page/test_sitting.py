@@ -29,8 +29,12 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
             assert box and min(box["width"], box["height"]) >= 44
         page.keyboard.press("y")
         sentence(page, "Trial 20 of 20")
+        stroke(page)
+        sentence(page, "Did it pop?")
         assert len(on_disk(tmp_path)) == 19
         studio.kill()
+        sentence(page, "The studio is not connected.")
+        expect(page.get_by_role("button")).to_have_text(["Force off (Esc)"])
         with sitting(tmp_path, studio.port):
             sentence(page, "19 of 20 trials are done.")
             page.keyboard.press("Enter")

@@ -25,7 +25,8 @@ export class Sentence {
   private said(bands: readonly Band[], now: Felt | null): string {
     const { app, progress } = this;
     this.offersControl = false;
-    if (app.sitting.value) return app.sitting.value.sentence;
+    if (app.sitting.value)
+      return app.connection.value.state === "open" ? app.sitting.value.sentence : "The studio is not connected.";
     const { excerpt, paused, live, title } = app.source.value;
     const simulated = app.hello.value?.device.simulated ?? true;
     const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";

@@ -28,7 +28,8 @@ export const sitting: Panel = (root, app) => {
     if (!now) return;
     void app.ask({ do: "respond", question: now.question, answer: name });
   };
-  app.sitting.watch((now) => {
+  const show = (): void => {
+    const now = app.sitting.value;
     const { classList } = document.documentElement;
     classList.toggle("sitting", now !== null);
     classList.toggle("covered", now?.covered ?? false);
@@ -36,14 +37,19 @@ export const sitting: Panel = (root, app) => {
     sound.show();
     if (!now) return;
     pageOf(app).value = "stage";
-    const buttons = now.answers.map(({ name, key }) =>
+    const gone = app.connection.value.state !== "open"; // then nobody takes an answer
+    const buttons = (gone ? [] : now.answers).map(({ name, key }) =>
       element("button", { type: "button", onclick: () => answer(name) }, name, element("kbd", {}, key)),
     );
     answers.replaceChildren(...buttons);
-    typed.hidden = !now.any_number;
+    typed.hidden = gone || !now.any_number;
     typed.value = "";
     const next = now.any_number ? typed : root.querySelector<HTMLElement>('[role="application"]');
     next?.focus({ preventScroll: true });
+  };
+  app.sitting.watch(show);
+  app.connection.watch(({ state }) => {
+    if (state !== "open") show(); // it opens with the session's message
   });
   for (const gesture of ["keydown", "click"]) document.addEventListener(gesture, sound.begin, { capture: true });
   // Before the keys of the view, of the stage and of the bench.

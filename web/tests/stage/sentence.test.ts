@@ -43,6 +43,11 @@ it("tells who could move the needle, and that the studio is gone", () => {
   control(false, null);
   expect(sentence.words([SKIN], null)).toBe("Nobody moves the needle.");
   expect(sentence.offersControl).toBe(true);
-  server.connection({ state: "closed", retry: 0 } as never);
-  expect(sentence.words([SKIN], INSIDE)).toBe("The studio is not connected.");
+  for (const session of [null, { sentence: "Push." }]) {
+    app.sitting.value = session as never;
+    server.connection({ state: "open" });
+    if (session) expect(sentence.words([SKIN], null)).toBe("Push.");
+    server.connection({ state: "closed", retry: 0 } as never);
+    expect(sentence.words([SKIN], INSIDE)).toBe("The studio is not connected.");
+  }
 });
