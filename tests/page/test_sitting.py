@@ -55,6 +55,7 @@ def test_nothing_but_the_force_tells_of_a_pop_though_the_browser_remembers_bench
         stroke(page)
         sentence(page, "Did it pop?")
         assert page.evaluate("[heard, rumbled]") == [["friction"], []]  # a noise whose volume stays 0
+        assert "warning: No haptic device" in studio.log() and "on PHANTOM Omni, simulated" in studio.log()
 
 
 def test_a_report_of_three_people_prints_on_one_page(browser, tmp_path):

@@ -84,6 +84,7 @@ def run(
 ) -> None:
     """Runs a participant's session in the studio's page, or the rest of it: each answered trial is on disk at once."""
     from punctura._core import DeviceError, Placement
+    from punctura.cli._headless import begun
     from punctura.cli._studio import need_studio
     from punctura.live import RunLimits, load_limits, load_placement
     from punctura.perception import load_protocol
@@ -110,6 +111,9 @@ def run(
         studio.call(studio.sitting.start)
         for note in studio.run.notes:
             notice(f"note: {note}")
+        if studio.bench.simulated:
+            notice(f"warning: {loaded.file.words.unfelt} Choose a device with --device; punctura devices lists them.")
+        notice(begun(base.scene.name, studio.run.loop, studio.bench.device))
         return server
 
     shown = DroppingStream(sys.stdout)

@@ -61,6 +61,7 @@ class Person(BaseModel):
     """The result of one participant. Levels are in the unit of the protocol's variable."""
 
     participant: str
+    device: str = ""  # its model; empty for an observer
     trials: int  # scored
     threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
     # difference from the reference that is told with a probability half-way between guess and 1

@@ -40,6 +40,7 @@ STYLE = (
     "h1{font-size:13pt}h2{font-size:10pt}table{border-collapse:collapse}svg{width:100%;height:auto;max-height:120mm}"
     "td,th{padding:0 5px;border-bottom:.5pt solid #ccc;text-align:left;font-weight:normal}tr{break-inside:avoid}"
 )
+NO_FORCE = "; no hand felt a force, because a mouse, a finger or keys moved the needle"
 CAPTIONS = {
     "": "Circles: the answers at a level, larger the more there are. Line and band: the function and its "
     f"{LEVEL:.0%} interval. Bar: that of the threshold.",
@@ -50,6 +51,7 @@ CAPTIONS = {
 DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("participant", pa.string(), "", "pseudonym"),
     ("participant_number", pa.int64(), "", "from 0, decides the order of the trials"),
+    ("device", pa.string(), "", "its model; of a simulated one no hand felt a force; empty for observers"),
     ("trial", pa.int64(), "", "number of the trial in the session, from 0, practice included"),
     ("block", pa.int64(), "", "from 0"),
     ("kind", pa.string(), "", "practice, trial or catch; only trial is in the fit"),
@@ -76,17 +78,19 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
 
     Raises SessionError if there is none, or one of another protocol.
     """
-    found, rows = {}, []
+    found, rows, devices = {}, list[dict[str, object]](), {}
     for path in sessions(folder):
         header, lines = read_session(path)
         if header:
             check_header(header, protocol, path)
             check_lines(lines, protocol, path)
-            found[path.stem] = lines
+            found[path.stem], devices[path.stem] = lines, header.device
             rows += [_row(protocol, header, line) for line in lines]
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
     analysis = analyse(protocol, found)
+    for one in analysis.people:
+        one.device = devices[one.participant]
     table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
     about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
     for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
@@ -145,6 +149,9 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
+    for device in sorted({one.device for one in found.people} - {""}):
+        names = ", ".join(one.participant for one in found.people if one.device == device)
+        lines += [f"Device of {names}: {device}{NO_FORCE * device.endswith('simulated')}.", ""]
     detected = [one for one in found.people if one.detection]
     lines += ["## d'", ""] * bool(detected)
     for i in range(0, len(detected), ABREAST):
@@ -266,6 +273,7 @@ def _row(protocol: Protocol, header: Header, line: Line) -> dict[str, object]:
     row |= {
         "participant": header.participant,
         "participant_number": header.number,
+        "device": header.device,
         "felt_level": felt_level(protocol, line)[0] if protocol.in_newtons else None,
         "counted": None if lacks else bool(counted(protocol, line.position, line.answer)),
         "force_scale": mine.scale,

@@ -40,6 +40,7 @@ class Header(BaseModel, frozen=True):
     participant: str
     number: NonNegativeInt  # of the participant: decides the order
     simulated: bool = False
+    device: str = ""  # its model; empty for an observer
     version: str  # of Punctura
     began: str = ""  # ISO 8601, UTC
     consent: bool = False
@@ -77,11 +78,12 @@ class Session:
     """
 
     def __init__(
-        self, protocol: Protocol, folder: Path, participant: str, consent: bool = False, simulated: bool = False
-    ) -> None:
+        self, protocol: Protocol, folder: Path, participant: str, consent: bool = False, simulated: bool = False,
+        device: str = "",
+    ) -> None:  # fmt: skip
         """simulated: whether an observer answers; a folder has people or observers.
 
-        Raises SessionError for a wrong pseudonym, another protocol, or a file that another process uses.
+        Raises SessionError for a wrong pseudonym, another protocol or device, or a file that another process uses.
         """
         self.path = _path(folder, participant)
         if protocol.file.consent and not consent:
@@ -97,11 +99,13 @@ class Session:
             if header is None:
                 header = Header(
                     protocol=protocol.name, digest=protocol.digest, participant=participant, version=__version__,
-                    number=_free_number(others, simulated), simulated=simulated, began=_now(),
+                    number=_free_number(others, simulated), simulated=simulated, device=device, began=_now(),
                     consent=bool(protocol.file.consent),
                 )  # fmt: skip
                 self._append(header)
             check_header(header, protocol, self.path)
+            if header.device not in ("", device):
+                raise SessionError(f"{self.path} began on {header.device}, and this is {device}: choose with --device")
             self.header, self.course = header, Course(protocol, header.number)
             for line in lines:
                 self._repeat(line)
@@ -144,7 +148,7 @@ class Session:
             os.ftruncate(self._descriptor, size)
             if bad.errno in (errno.ENOSPC, errno.EDQUOT):
                 raise DiskFullError(
-                    f"{self.path}: the disk is full, and this answer is not saved: free some space, then go on"
+                    f"{self.path}: the disk is full, and this answer is not saved: free some space"
                 ) from None
             raise
 

@@ -13,6 +13,7 @@ class WordsTable(Table):
 
     agree: Text = "Do you agree?"
     declined: Text = "Then there is no session. Thank you."
+    unfelt: Text = "No haptic device: the simulated one is used, and no hand feels a force."
     begins: Text = "The session begins."  # without an instruction
     resumed: Text = "{done} of {trials} trials are done."
     go_on: Text = "Go on"

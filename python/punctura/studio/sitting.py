@@ -54,7 +54,7 @@ class PerceptionSitting:
         )
         self._then: Then = lambda answer: None
         self._read: dict[str, str] = {}  # each answer as the participant reads it
-        self._remark = ""  # on the last answer
+        self._remark = f"{self._words.unfelt} " * studio.bench.simulated  # before the next sentence
         self._held = 0  # buttons
         self._trial: Trial
         self._block: int | None = None  # of the trial before
@@ -87,7 +87,10 @@ class PerceptionSitting:
             self._answers.__exit__(None, None, None)
 
     def _open(self) -> None:
-        self._answers = Answers(self._protocol, self._folder, self._participant, consent=True)
+        info = self._studio.bench.device.info
+        self._answers = Answers(
+            self._protocol, self._folder, self._participant, consent=True, device=info.model or info.backend
+        )
 
     def _consented(self, answer: str) -> None:
         if answer == "no":

@@ -10,7 +10,7 @@ import pytest
 from protocols import COMPARES, RIGHT, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
-from punctura.perception import Session, SessionError, load_protocol, read_session
+from punctura.perception import Session, SessionError, load_protocol, read_session, write_report
 from punctura.perception.course import Line
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
@@ -91,7 +91,7 @@ def saved(folder: Path) -> list[Line]:
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
     text = 'consent = "I agree."\nnoise = true\n' + COMPARES + GERMAN
     with sat(tmp_path, text) as (person, _):
-        person.reads("I agree. Sind Sie einverstanden?")
+        person.reads("simulated one is used, and no hand feels a force. I agree. Sind Sie einverstanden?")
         assert person.page.get("/api/noise.wav")[1][:4] == b"RIFF"
         assert not person.page.ask(do="load", scene="venipuncture")["ok"]  # a session has the studio for itself
         person.answers("yes")
@@ -116,7 +116,24 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
     assert all(felt.drop > 0.1 for felt in first.felt)  # how much depends on the hand
     assert all(felt.scale == 0.8 and felt.pops == 1 for felt in first.felt)
     with sat(tmp_path, text) as (person, _):
+        person.reads("No haptic device")
         person.reads("1 of 120 trials are done.")
+
+
+def test_everything_that_is_written_names_the_device(tmp_path: Path) -> None:
+    protocol, device = load_protocol(written(tmp_path, YES + SCALED)), "PHANTOM Omni, simulated"
+    with sat(tmp_path, YES) as (person, _):
+        person.reads("The session begins.")
+        person.answers("Go on")
+        person.goes_through()
+        person.reads("Did it pop?")
+        person.answers("yes")
+    assert read_session(tmp_path / "out" / "P01.jsonl")[0].device == device
+    with pytest.raises(SessionError, match=f"began on {device}, and this is Touch: choose with --device"):
+        Session(protocol, tmp_path / "out", "P01", device="Touch")
+    assert write_report(protocol, tmp_path / "out").people[0].device == device
+    assert f"Device of P01: {device}; no hand felt a force" in (tmp_path / "out" / "report.md").read_text()
+    assert f"P01,0,{device}" in (tmp_path / "out" / "trials.csv").read_text().replace('"', "")
 
 
 def test_the_needle_may_go_in_once_the_ticks_say_that_the_force_is_on(
