@@ -19,7 +19,7 @@ from punctura.trace.samples import (
     without_floor,
     without_spikes,
 )
-from punctura.trace.segment import Segments, segment, way_to_tissue
+from punctura.trace.segment import Segments, Stroke, segment, way_to_tissue
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -30,6 +30,7 @@ _DEPTHS = (1e-5, 0.5)  # m, range of the depth
 _FORCES = (2e-5, 1000.0)  # N, greatest force
 _FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
 _BACK, _JUMP = 0.5, 20.0  # of the range of the depth, and times the usual step: no needle goes back like that
+_ALIKE = 0.1  # of a change of the zero: nearer to 0 is its middle where friction is on both ways
 _SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
 
 
@@ -51,21 +52,22 @@ def examine(trace: Trace) -> Trace:
     segments = segment(trace)
     going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
     touching = way_to_tissue(trace, segments.strokes)
-    if going_in is not None and touching is not None and _pushed(trace.force[going_in.start : touching.end]):
+    if going_in is not None and touching is not None and _pushed(trace.force[_inward(trace, segments, touching)]):
         friction, cable = trace.rig_sizes
         trace = replace(trace, force=-trace.force, rig_sizes=(-friction, -cable))
         segments = segment(trace)
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
         )
-    air, where = np.empty(0), "before contact"
+    air, where, zero = np.empty(0), "before contact", 0.0
     if going_in is not None and segments.contact is not None and segments.contact >= going_in.start:
         air = trace.force[going_in.start : segments.contact + 1]
     elif segments.exit is not None:
         air, where = trace.force[segments.exit :], "after the needle has left the tissue"
     if len(air):
-        zero, height = float(np.median(air)), float(np.max(np.abs(trace.force - np.median(air))))
-        if abs(zero) > max(_SMALL * height, 3 * noise_of(trace.force)):
+        level, height = float(np.median(air)), float(np.max(np.abs(trace.force - np.median(air))))
+        if abs(level) > max(_SMALL * height, 3 * noise_of(trace.force)):
+            zero = level
             trace = replace(trace, force=trace.force - zero)
             segments = segment(trace)
             found.append(Finding("offset", f"the force is {zero:.3g} N {where}; this is subtracted", True))
@@ -74,7 +76,7 @@ def examine(trace: Trace) -> Trace:
         *_units(trace),
         *gaps(trace),
         *smoothed(*segments.air(trace.force)),
-        *_drift(trace, segments),
+        *_drift(trace, segments, zero),
     ]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
     trace, floor = without_floor(trace, segments)
@@ -99,6 +101,19 @@ def _only_withdrawn(force: Array) -> bool:
     height = float(np.max(np.abs(force)))
     let_go = abs(begin) > 0.5 * height and abs(soon - begin) > 0.5 * abs(end - begin) > 4 * noise_of(force)
     return let_go or abs(end) < max(_SMALL * height, 2 * noise_of(force)) < 0.3 * abs(begin)
+
+
+def _inward(trace: Trace, segments: Segments, touching: Stroke) -> NDArray[np.int64]:
+    """The samples of the way in up to the tissue; of a needle that turns before, all on its ways in to the deepest one.
+
+    On a way out, tissue that the needle is in from the beginning pulls.
+    """
+    begin = next(stroke for stroke in segments.strokes if stroke.kind == "in").start
+    if not any(stroke.kind == "out" and begin < stroke.start < touching.end for stroke in segments.strokes):
+        return np.arange(begin, touching.end)
+    deepest = int(np.argmax(trace.depth))
+    ways = [one for one in segments.strokes if one.kind == "in" and one.start <= max(deepest, touching.start)]
+    return np.concatenate([np.arange(one.start, one.end) for one in ways])
 
 
 def _pushed(force: Array) -> bool:
@@ -140,14 +155,19 @@ def _stacked(trace: Trace) -> Iterator[Finding]:
         yield Finding("stacked", f"{text}, {advice}", severe=True)
 
 
-def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
+def _drift(trace: Trace, segments: Segments, zero: float) -> Iterator[Finding]:
+    """A zero that is not the same at both ends. zero: what was subtracted, N."""
     if segments.contact is None:
         return
     height, noise = float(np.max(np.abs(trace.force))), noise_of(trace.force)
     before = trace.force[: segments.contact + 1]
     if segments.exit is not None:
         after = float(np.median(trace.force[segments.exit :])) - float(np.median(before))
-        if abs(after) > max(_SMALL * height, 5 * noise):
+        if -after > max(_SMALL * height, 5 * noise) and abs(2 * zero + after) < _ALIKE * -after:
+            text = f"the force is {zero:+.3g} N at the beginning and {zero + after:+.3g} N at the end: a drift, "
+            text += "or friction of the slide or of tissue that the needle is in from the beginning"
+            yield Finding("drift", f"{text}. Begin and end in air, at rest: it tells them apart")
+        elif abs(after) > max(_SMALL * height, 5 * noise):
             text = (
                 f"the force is {after:+.3g} N different after the needle has left the tissue: let the sensor warm up, "
             )

@@ -222,3 +222,19 @@ def test_a_pull_that_does_not_change_is_one_where_the_air_behind_it_reads_more(p
     force = np.where(depth < 3e-3, 0.0, np.where(going, 0.85 * np.minimum((depth - 3e-3) / 2e-3, 1.0), -pull))
     found = {one.kind for one in examine(Trace(depth, force, np.arange(len(depth)) / 200)).findings}
     assert ("no_pull" in found) == (pull == 0)
+
+
+def test_a_needle_that_begins_in_tissue_keeps_the_sign_of_its_force():
+    turns = np.array([0, 2, 0, 2, 0, 12, 0]) * 1e-3
+    way = np.concatenate(([0], np.cumsum(np.abs(np.diff(turns)))))
+    depth = np.interp(np.arange(0, way[-1], 1e-5), way, turns)
+    inward = np.gradient(depth) > 0
+    bump = np.interp(depth, [5e-3, 8e-3, 8.1e-3], [0, 0.5, 0]) * inward
+    noise = 5e-3 * np.random.default_rng(2).normal(size=len(depth))
+    force = np.where(inward, 0.35, -0.35) + bump + noise
+    begun = examine(Trace(depth, force, np.arange(len(depth)) / 200))
+    found = {finding.kind: finding.text for finding in begun.findings}
+    assert "reversed_sign" not in found
+    assert "tissue that the needle is in from the beginning" in found["drift"] and "warm up" not in found["drift"]
+    turned = examine(Trace(depth, -force, np.arange(len(depth)) / 200))
+    assert "reversed_sign" in {finding.kind for finding in turned.findings}
