@@ -137,7 +137,8 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
         f"the force in air follows the direction of the motion{' and stays in a rest' * kept}, by {each}, as friction "
         f"of the slide makes it{', or tissue that the needle is in from the beginning' * kept}; this is subtracted",
         f"the force in air changes by {1e-3 * sizes[-1]:+.2g} N a mm on both ways, as a cable that pulls makes it, or "
-        "a soft layer that follows the needle; this is subtracted, also deeper in",
+        "a soft layer that the needle touches from the beginning; this is subtracted, also deeper in. To tell: move "
+        "over the same depths in air without tissue",
     )
     found = [Finding(name, text, True) for name, text, one in zip(RIG_FORCES, texts, seen, strict=True) if one]
     if not seen[0]:

@@ -40,6 +40,8 @@ def test_a_force_of_the_rig_that_the_air_shows_is_named_and_is_no_wall(of_rig, k
     trace = rested(of_rig)
     (told,) = trace.findings
     assert told.kind == kind and told.repaired and words in told.text
+    if kind == "cable_stiffness":
+        assert "soft layer" in told.text and "in air without tissue" in told.text
     found = identify(trace, NEEDLE)
     assert len(found.parameters.membranes) == 1 and found.extensions == () and found.doubts.sentences == ()
     values = {estimate.name: estimate for estimate in found.estimates}
