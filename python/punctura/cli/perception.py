@@ -107,7 +107,7 @@ def run(
         server = serve.StudioServer(base, settings, port, serve.token_from_environment(), folder=folder)
         studio = server.session
         check_device(loaded, studio.run.loop.limits)
-        studio.sitting = PerceptionSitting(studio, loaded, base, participant)
+        studio.sitting = PerceptionSitting(studio, loaded, base, participant, notice)
         studio.call(studio.sitting.start)
         for note in studio.run.notes:
             notice(f"note: {note}")

@@ -28,6 +28,7 @@ class WordsTable(Table):
     block: Text = "A block is over."
     rest: Text = "Rest for at least {seconds} s."
     repeated: Text = "The trial is repeated: {why}."  # the reason is English
+    paused: Text = "The session has paused. Please call the experimenter."
     off: Text = "The force is off. It comes back when you go on."
     fault: Text = "The force is off: {why}. It comes back when you go on."
     last: Text = "That was the last trial. Thank you."

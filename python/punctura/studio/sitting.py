@@ -44,8 +44,14 @@ class PerceptionSitting:
     what = "session"
     end_at: float | None = None
 
-    def __init__(self, studio: Session, protocol: Protocol, base: Loaded, participant: str) -> None:
-        """base: the scene's file. The answers are beside the studio's recordings. Raises SessionError."""
+    def __init__(
+        self, studio: Session, protocol: Protocol, base: Loaded, participant: str, tell: Callable[[str], None]
+    ) -> None:
+        """base: the scene's file. tell: writes to the experimenter's terminal.
+
+        The answers are beside the studio's recordings. Raises SessionError.
+        """
+        self._tell = tell
         self.sound = pink_noise(NOISE_S) if protocol.file.noise else b""
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
         self._words, self._folder = protocol.file.words, studio.shelf.folder
@@ -99,7 +105,7 @@ class PerceptionSitting:
         try:
             self._open()
         except (PuncturaError, OSError) as bad:
-            self._say(f"{sentence_of(bad)}.", GO, self._consented)
+            self._pause(sentence_of(bad), self._consented)
         else:
             self._welcome()
 
@@ -139,7 +145,7 @@ class PerceptionSitting:
                 file.unlink(missing_ok=True)  # of attempts before, and what a kill left of one
             studio.begin_activity(self, self._scene(), None, self._name(), about)
         except (PuncturaError, OSError) as bad:
-            self._again(sentence_of(bad))
+            self._pause(sentence_of(bad), lambda _: self._armed())
         else:
             self._explore()
 
@@ -202,7 +208,10 @@ class PerceptionSitting:
                 found = [] if why else felt_of(recording, scenes, self._protocol.membrane)
             except Exception as bad:
                 why = explain(bad)
-            self._studio.jobs.post(lambda: self._again(why) if why else self._ask(found))
+            spoilt = partial(self._again, why)
+            if status.trouble and not reason:  # the disk's; its first words have the file and what is wrong
+                spoilt = partial(self._pause, status.trouble.partition(";")[0], lambda _: self._armed())
+            self._studio.jobs.post(spoilt if why else lambda: self._ask(found))
 
         if not self._studio.recording:  # the ticks have ceased, and ended the run
             self._again(reason)
@@ -221,6 +230,13 @@ class PerceptionSitting:
         words = self._words.repeated.format(why=why.rstrip(". "))
         self._say(f"{words} {self._words.wait}", GO, lambda _: self._armed())
 
+    def _pause(self, why: str, then: Then) -> None:
+        """The participant calls the experimenter, whose terminal has the reason."""
+        self._studio.run.loop.pause()
+        remedy = "" if "free some space" in why else "mend this (on a full disk, make space), "
+        self._tell(f'{why.rstrip(". ")}; {remedy}then press "{self._words.go_on}" at the page')
+        self._say(self._words.paused, GO, then)
+
     def _ask(self, felt: list[Felt]) -> None:
         answers, question = self._protocol.answers, self._protocol.file.question
         self._say(question, answers, lambda answer: self._save(answer, felt), any_number=not answers)
@@ -231,7 +247,7 @@ class PerceptionSitting:
         try:
             self._answers.add(trial, answer, felt, [f"{self._name()}.parquet"])
         except (PuncturaError, OSError) as bad:
-            self._say(f"{sentence_of(bad)}.", GO, lambda _: self._save(answer, felt))
+            self._pause(sentence_of(bad), lambda _: self._save(answer, felt))
             return
         if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
             right = counted(protocol, trial.position, answer)

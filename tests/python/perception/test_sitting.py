@@ -23,6 +23,8 @@ from punctura.studio.serve import StudioServer
 from punctura.studio.sitting import PerceptionSitting
 from waiting import LATE_ALLOWED, wait_until
 
+TOLD: list[str] = []  # at the terminal
+REMEDY = 'mend this (on a full disk, make space), then press "Go on" at the page'
 SCALED = '[values]\n"display.force_scale" = 0.8\n'
 
 
@@ -71,7 +73,7 @@ def sat(folder: Path, text: str, limits: ForceLimits | None = None) -> Iterator[
     settings = Settings("simulated", limits=RunLimits(limits or ForceLimits(), LATE_ALLOWED))
     server = StudioServer(base, settings, page=folder, folder=folder / "out")
     try:
-        server.session.sitting = sitting = PerceptionSitting(server.session, protocol, base, "P01")
+        server.session.sitting = sitting = PerceptionSitting(server.session, protocol, base, "P01", TOLD.append)
         server.session.call(sitting.start)
         server.start()
         with StudioClient(server.address.url) as page:
@@ -222,14 +224,16 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
             now.setattr(AppendFile, "write", lambda file, data: raised(full) if file.size else write(file, data))
             person.answers("Go on")
             person.goes_through()
-            person.reads("o space left")
+            person.reads("The session has paused. Please call the experimenter.")
+            assert TOLD[-1].endswith(f"-4.parquet.part could not be written: No space left on device; {REMEDY}")
         person.answers("Go on")
         person.goes_through()
         person.reads("Did it pop?")
         add = Session.add
         monkeypatch.setattr(Session, "add", lambda *_: raised(full))
         person.answers("yes")
-        person.reads("o space left")
+        person.reads("The session has paused. Please call the experimenter.")
+        assert TOLD[-1] == f"[Errno 28] No space left; {REMEDY}"
         monkeypatch.setattr(Session, "add", add)
         person.answers("Go on")
         person.reads("Trial 2")
@@ -252,7 +256,8 @@ def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_an
         person.goes_through()
         person.reads("Did it pop?")
         person.answers("yes")
-        person.reads(f"repeated: {left}")
+        person.reads("The session has paused.")
+        assert TOLD[-1].startswith(f"{left}: ")
         left.rmdir()
         person.answers("Go on")
         person.goes_through("Trial 2")
@@ -280,7 +285,8 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
         with monkeypatch.context() as now:
             now.setattr(Run, "start", lambda _: raised(DeviceError("cannot open")))
             person.answers("Go on")
-            person.reads("repeated: cannot open")
+            person.reads("The session has paused.")
+            assert TOLD[-1] == f"cannot open; {REMEDY}"
         person.answers("Go on")
         person.reads("push")
         with monkeypatch.context() as now:
