@@ -10,6 +10,10 @@
 #include <system_error>
 #include <thread>
 
+#ifndef _WIN32
+#include <unistd.h>
+#endif
+
 #include "punctura/device/device.hpp"
 #include "punctura_runtime/os/os.hpp"
 
@@ -55,6 +59,7 @@ class WatchThread {
   void start(Look look) {
     stop();
     end_ = std::make_shared<End>();
+    process_ = this_process();
     try {
       thread_ = std::thread([end = end_, look] {
         os::make_realtime(priority);
@@ -77,6 +82,10 @@ class WatchThread {
   /// Waits for a look() that is running. Not from look().
   void stop() noexcept {
     if (!thread_.joinable()) return;
+    if (process_ != this_process()) {  // glibc 2.43 waits forever for a thread that a fork did not copy
+      thread_.detach();
+      return;
+    }
     {
       const std::lock_guard lock(end_->mutex);
       end_->asked = true;
@@ -93,8 +102,17 @@ class WatchThread {
     std::condition_variable wake;
     bool at_work = false, asked = false;
   };
+  static long this_process() noexcept {
+#ifdef _WIN32
+    return 0;  // has no fork
+#else
+    return getpid();
+#endif
+  }
+
   std::shared_ptr<End> end_;
   std::thread thread_;
+  long process_ = 0;  ///< that of the thread
 };
 
 }  // namespace punctura
