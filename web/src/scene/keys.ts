@@ -58,7 +58,9 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
    * to come: it may be a tap. A repeat of the keyboard or another key tells before it that the key is held.
    */
   const held = new Map<string, number>();
+  let before: readonly string[] = []; // the keys that were held when the focus went away
   const release = (): void => {
+    before = [...held.keys()];
     held.clear();
     thumb.push("key", 0);
   };
@@ -78,9 +80,9 @@ export function viewKeys(canvas: HTMLElement, hand: Hand, orbit: OrbitCamera, ag
     const now = performance.now();
     for (const [each, until] of held) if (each !== key || event.repeat) held.set(each, Math.min(until, now));
     act?.();
-    if (!move || held.has(key)) return;
+    if (!move || held.has(key) || (event.repeat && !before.includes(key))) return;
     if (!event.repeat) move(1);
-    held.set(key, event.repeat ? now : now + HELD_MS); // a repeat: the focus was away while the key was down
+    held.set(key, event.repeat ? now : now + HELD_MS);
   });
   everyFrame((now) => {
     if (run !== hand.run) held.clear();

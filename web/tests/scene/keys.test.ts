@@ -103,6 +103,7 @@ it("PageDown and PageUp move towards the user and back along the skin, with Shif
 it("a key that is still down when the focus comes back moves on", () => {
   key("keydown", "ArrowDown");
   canvas.dispatchEvent(new Event("blur"));
+  key("keydown", "ArrowUp", { repeat: true }); // was pressed elsewhere
   key("keydown", "ArrowDown", { repeat: true });
   const before = deep();
   frame(100);

@@ -1,5 +1,5 @@
 import { Color } from "three";
-import { expect, it, vi } from "vitest";
+import { afterAll, expect, it, vi } from "vitest";
 import { Moment, OUTSIDE } from "../../src/scene/moment.ts";
 import { Needle } from "../../src/scene/needle.ts";
 import type { Theme } from "../../src/scene/theme.ts";
@@ -8,7 +8,9 @@ import { codeOf } from "../../src/wire/ticks.ts";
 import { batch } from "../support/fill_history.ts";
 import { plainScene } from "../support/plain_scene.ts";
 
-vi.mock("../../src/scene/steel.ts", () => ({ steel: () => undefined })); // it draws on a canvas
+vi.stubGlobal("document", { createElement: () => ({ getContext: () => null }) }); // for the picture of steel
+afterAll(() => void vi.unstubAllGlobals());
+
 const INSIDE = codeOf("phase", "sliding_in");
 const theme = { dark: false, watch: (act: () => void) => act(), color: () => new Color("red") } as unknown as Theme;
 
