@@ -150,8 +150,13 @@ def test_a_mouse_that_holds_the_plunger_moves_the_needle_with_its_wheel(shown: P
     expect(force.first).to_have_text(re.compile(r"^0[.][0-4]"))
 
 
+def on_stage(page: Page) -> None:
+    if (stage := page.get_by_role("button", name="Stage", exact=True)).is_visible():
+        stage.click()
+
+
 def test_the_stage_tells_how_much_has_left_the_syringe(shown: Page) -> None:
-    shown.get_by_role("button", name="Stage").click()
+    on_stage(shown)
     injected = shown.get_by_text("mL injected")
     expect(injected).to_have_text(re.compile(r"^[0-2][.]\d mL"))
     before = injected.inner_text()
@@ -170,7 +175,7 @@ def fat_at_the_left_border(page: Page) -> bool:
 
 
 def test_the_tissue_goes_on_to_the_border_of_a_large_window_and_at_a_zoom_of_200_percent(shown: Page) -> None:
-    shown.keyboard.press("Alt+b")
+    on_stage(shown)
     for width, height in ((1920, 1080), (720, 450)):
         shown.set_viewport_size({"width": width, "height": height})
         for _ in range(100):
