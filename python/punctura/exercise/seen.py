@@ -183,8 +183,8 @@ def stays_of(samples: Samples) -> int:
 
 
 def pauses_of(samples: Samples, until: float) -> Pauses:
-    """The pauses in the tissue before the time `until`, s, of the arrival or of the end. A needle that the page held
-    for a part of the time is no pause."""
+    """The pauses in the tissue before the time `until`, s, of the arrival or of the end. A pause in which the
+    page was late is not counted."""
     rows = (samples.time <= until) & np.isfinite(samples.tip).all(axis=1)
     time, tip, inside, late = samples.time[rows], samples.tip[rows], samples.inside[rows], samples.late[rows]
     if len(time) < 3 or time[-1] - time[0] < PAUSE_S:

@@ -111,7 +111,7 @@ def moving_tissue(plain: Fit, chosen: Fit, assessment: Explained) -> Cause | Non
         return None
     size, spring = UNIT * float(np.hypot(x[-3], x[-2])), free.parameters(x[:-3]).get("coupling_stiffness")
     text = (
-        f"The trace is as if the tissue moved back and forth by {1e6 * size:.3g} um, {x[-1]:.2g} times a second, as "
+        f"The trace is as if the tissue moved back and forth by ±{1e6 * size:.3g} um, {x[-1]:.2g} times a second, as "
         f"breathing or a pulse moves it. While the needle rests, the spring makes up to {size * spring:.2g} N of it. "
         "To tell: rest in the tissue for ten periods. To fit it: hold the breath, or record the motion of the surface "
         "and subtract it from the depth"

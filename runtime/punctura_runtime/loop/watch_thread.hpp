@@ -9,6 +9,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #ifndef _WIN32
 #include <unistd.h>
@@ -82,8 +83,9 @@ class WatchThread {
   /// Waits for a look() that is running. Not from look().
   void stop() noexcept {
     if (!thread_.joinable()) return;
-    if (process_ != this_process()) {  // glibc 2.43 waits forever for a thread that a fork did not copy
-      thread_.detach();
+    if (process_ != this_process()) {
+      // A fork did not copy the thread. glibc 2.43 waits for it forever, and another thread may have its handle now.
+      static_cast<void>(new std::thread(std::move(thread_)));
       return;
     }
     {

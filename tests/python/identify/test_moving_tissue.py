@@ -18,7 +18,7 @@ def test_tissue_that_swings_is_named_with_its_size_and_frequency(size, rate, wor
     found = identify(measured(depth, force_of(depth + size * np.sin(2 * np.pi * rate * time))), NEEDLE)
     (cause,) = found.doubts.causes
     assert cause.kind == "moving_tissue" and cause.share > 0.9 and words in cause.text
-    told = float(cause.text.partition("forth by ")[2].partition(" um")[0])
+    told = float(cause.text.partition("forth by ±")[2].partition(" um")[0])
     assert told == pytest.approx(1e6 * size, rel=0.15)
 
 
