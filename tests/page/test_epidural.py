@@ -150,20 +150,25 @@ def test_a_mouse_that_holds_the_plunger_moves_the_needle_with_its_wheel(shown: P
     expect(force.first).to_have_text(re.compile(r"^0[.][0-4]"))
 
 
-def on_stage(page: Page) -> None:
-    if (stage := page.get_by_role("button", name="Stage", exact=True)).is_visible():
-        stage.click()
+@pytest.fixture
+def staged(shown: Page) -> Iterator[Page]:
+    """The page on its stage; behind the test it is on the bench again."""
+    stage = shown.get_by_role("button", name="Stage", exact=True)
+    stage.click()
+    yield shown
+    shown.set_viewport_size({"width": 1440, "height": 900})
+    shown.keyboard.press("Alt+b")
+    expect(stage).to_be_visible()
 
 
-def test_the_stage_tells_how_much_has_left_the_syringe(shown: Page) -> None:
-    on_stage(shown)
-    injected = shown.get_by_text("mL injected")
+def test_the_stage_tells_how_much_has_left_the_syringe(staged: Page) -> None:
+    injected = staged.get_by_text("mL injected")
     expect(injected).to_have_text(re.compile(r"^[0-2][.]\d mL"))
     before = injected.inner_text()
-    view(shown).focus()
-    shown.keyboard.down(" ")
+    view(staged).focus()
+    staged.keyboard.down(" ")
     expect(injected).not_to_have_text(before)
-    shown.keyboard.up(" ")
+    staged.keyboard.up(" ")
 
 
 def fat_at_the_left_border(page: Page) -> bool:
@@ -174,13 +179,12 @@ def fat_at_the_left_border(page: Page) -> bool:
     return any(red > 200 and green > 150 and blue < 150 for _, (red, green, blue) in column.getcolors())
 
 
-def test_the_tissue_goes_on_to_the_border_of_a_large_window_and_at_a_zoom_of_200_percent(shown: Page) -> None:
-    on_stage(shown)
+def test_the_tissue_goes_on_to_the_border_of_a_large_window_and_at_a_zoom_of_200_percent(staged: Page) -> None:
     for width, height in ((1920, 1080), (720, 450)):
-        shown.set_viewport_size({"width": width, "height": height})
+        staged.set_viewport_size({"width": width, "height": height})
         for _ in range(100):
-            shown.wait_for_timeout(100)
-            if fat_at_the_left_border(shown):
+            staged.wait_for_timeout(100)
+            if fat_at_the_left_border(staged):
                 break
         else:
             raise AssertionError(f"the tissue ends before the border of {width} px")
