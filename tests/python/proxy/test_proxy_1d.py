@@ -61,18 +61,6 @@ def test_a_proxy_that_is_held_does_not_move(ticks):
     assert (moved <= 8 * np.spacing(size)).all()
 
 
-def test_a_run_in_one_call_equals_the_same_run_tick_by_tick():
-    r = random_runs.runs(2, 60, 120)
-    f, e, _ = core.walk_1d(r, "exact")
-    for lane in range(60):
-        proxy = core.proxy_1d(r, lane, "exact")
-        p = np.ascontiguousarray(r.p[:, lane])
-        assert np.array_equal(np.concatenate([proxy.run(p[:50]).force, proxy.run(p[50:]).force]), f[:, lane])
-        assert proxy.offset == e[-1, lane]
-        proxy.reset()
-        assert np.array_equal(proxy.run(p).force, f[:, lane])
-
-
 def test_exact_is_the_default():
     r = random_runs.runs(3, 1, 100)
     c = punctura.Coupling(float(r.coupling.K[0]), float(r.coupling.B[0]))
@@ -130,11 +118,12 @@ def test_whole_runs_agree_wherever_rounding_alone_does_not_move_them(walked):
         assert contracts.mean() > 0.3 and steady.mean() > 0.85, "the comparison must reach most of the ticks"
 
 
-def test_a_run_in_one_call_equals_the_same_run_tick_by_tick_and_goes_on_from_there():
+@pytest.mark.parametrize("solver", ["paper", "exact"])
+def test_a_run_in_one_call_equals_the_same_run_tick_by_tick_and_goes_on_from_there(solver):
     r = random_runs.runs(2, 60, 120)
-    f, e, _ = core.walk_1d(r, "paper")
+    f, e, _ = core.walk_1d(r, solver)
     for lane in range(60):
-        proxy = core.proxy_1d(r, lane, "paper")
+        proxy = core.proxy_1d(r, lane, solver)
         p = np.ascontiguousarray(r.p[:, lane])
         in_two = np.concatenate([proxy.run(p[:50]).force, proxy.run(p[50:]).force])
         assert np.array_equal(in_two, f[:, lane])
