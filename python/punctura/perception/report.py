@@ -181,7 +181,10 @@ def _page(text: str, picture: str) -> str:
             rows = [line[2:-2].split(" | ") for line in block.splitlines() if not line.startswith("| ---")]
             parts += [
                 "<table>",
-                *("<tr>" + "".join(f"<td>{cell.strip('*')}" for cell in one) for one in rows),
+                *(
+                    "<tr>" + "".join(f"<{'td' if i else 'th'}>{cell.strip('*')}" for cell in one)
+                    for i, one in enumerate(rows)
+                ),
                 "</table>",
             ]
         elif row[0] in ("#", "##"):
