@@ -25,6 +25,7 @@ import contextlib
 import io
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -55,7 +56,7 @@ def punctura_command() -> str:
     """The program `punctura` of the pages, which starts in a moment."""
     folder = running.enter_context(tempfile.TemporaryDirectory())
     words = running.enter_context(warm(Path(folder)))
-    return f'#!/bin/sh\nexec {" ".join(words)} "$@"\n'
+    return f'#!/bin/sh\nexec {shlex.join(words)} "$@"\n'
 
 
 def run_python(code: str, example: Example) -> None:

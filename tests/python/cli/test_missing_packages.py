@@ -158,21 +158,30 @@ def test_the_command_installs_the_packages_of_the_extra_as_the_wheel_states_them
 @pytest.mark.parametrize(
     ("pipx", "pip", "command"),
     [
-        (False, True, f"{sys.executable} -m pip install tqdm"),
-        (False, False, f"uv pip install --python {sys.executable} tqdm"),
+        (False, True, "{python} -m pip install tqdm"),
+        (False, False, "uv pip install --python {python} tqdm"),
         (True, False, "pipx inject environment tqdm"),
     ],
 )
+@pytest.mark.parametrize(
+    ("executable", "python"),
+    [
+        ("/home/ann/.venv/bin/python", "/home/ann/.venv/bin/python"),
+        ("/home/ann/a clone/python", '"/home/ann/a clone/python"'),
+    ],
+)
 def test_the_command_is_one_that_this_environment_has(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, pipx: bool, pip: bool, command: str
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, pipx: bool, pip: bool, command: str, executable: str, python: str
 ) -> None:
     prefix = tmp_path / "environment"
     prefix.mkdir()
     if pipx:
         (prefix / "pipx_metadata.json").touch()
     monkeypatch.setattr(sys, "prefix", str(prefix))
+    monkeypatch.setattr(sys, "executable", executable)
     monkeypatch.setattr(extras, "find_spec", lambda name: pip or None)
-    assert str(extras.missing("tqdm", "none", "this")).endswith(f"Install it: {command}")
+    text = str(extras.missing("tqdm", "none", "this"))
+    assert text.endswith("Install it: " + command.format(python=python))
 
 
 def test_a_package_that_an_optional_one_lacks_is_not_mistaken_for_it(tmp_path: Path) -> None:
