@@ -121,7 +121,7 @@ def breathing(axes: Axes, below: Axes) -> None:
     trace = noisy(time, depth, law(time, swung))
     fits = {"K06, one wall": fitted(trace), "along the depth in the tissue": fitted(replace(trace, depth=swung))}
     still = fits["K06, one wall"]
-    print(moving_tissue(still, still, doubts(trace, segment(trace), still, ()).explained))
+    print(moving_tissue(trace, still, still, doubts(trace, segment(trace), still, ()).explained))
     draw_two(axes, below, trace, "time, s", fits)
 
 

@@ -1,7 +1,9 @@
 """What is said when a model does not explain its trace, or explains it by the wrong means."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from punctura.trace import Segments, Trace
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
+IMPOSSIBLE = ("air_steps", "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
 UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 
 
@@ -31,6 +34,10 @@ class Doubts:
         """One sentence or two for each doubt."""
         whole = self.explained.sentence()
         return (*([whole] if whole else []), *(f"{cause}." for cause in self.causes))
+
+    def by(self, cause: Cause) -> Doubts:
+        """The same doubts with this cause, from which all else in the tissue may follow."""
+        return replace(self, causes=(cause, *(one for one in self.causes if one.kind in IMPOSSIBLE)))
 
     def as_dict(self) -> ExplainedRecord:
         """As plain values for JSON, SI."""

@@ -1,7 +1,7 @@
 """Identification of a trace: from force against depth to membranes with intervals."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -182,8 +182,8 @@ def _identified(
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
     effective = effective_samples(plain.residuals, len(plain.u))
     doubt = doubts(trace, segments, plain, choice.current.extensions, air)
-    moving = moving_tissue(choice.plain.fit, choice.current.fit, doubt.explained)
-    doubt = doubt if moving is None else replace(doubt, causes=(moving,))  # all else may follow from it
+    moving = moving_tissue(trace, choice.plain.fit, choice.current.fit, doubt.explained)
+    doubt = doubt if moving is None else doubt.by(moving)
     whitened = final.misfit.whitening is not None
     advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok, whitened)
     advice = (

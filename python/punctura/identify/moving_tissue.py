@@ -17,16 +17,19 @@ from punctura.identify.explained import Explained
 from punctura.identify.fit import Fit, Misfit
 from punctura.identify.least_squares import least_squares
 from punctura.identify.parameters import Parameters
+from punctura.trace import Trace
 
 Array = NDArray[np.float64]
 
 FASTEST, SAMPLES = 4.0, 8  # Hz, and samples of a period: a swing that is looked for is slower
-PERIODS, MOST = 1.0, 200  # in the time in tissue, at least; frequencies that are tried
-PER_PERIOD = 4  # frequencies, from one that makes a period more in the trace to the next
+PERIODS, MOST = 1.0, 2400  # in the time in tissue, at least; frequencies that are tried
+PER_PERIOD = 2  # frequencies, from one that makes a period more in the trace to the next
+LIKELY, FINER = 10, np.array([-1.0, 0.0, 1.0]) / 3  # frequencies that are tried again, in parts of the way to the next
 SIZES, PHASES = (5e-5, 3e-4), np.arange(4) * np.pi / 4  # m; a factor may be negative
 STARTS, EVALUATIONS = 4, 60
 UNIT = 1e-4  # m, of the coordinates of a swing; those of a frequency are Hz
 LARGEST = 20.0  # times this unit
+SLOWEST = 1.01  # times the slowest frequency: what ends there is no swing
 STEPS = (2e-3, 2e-3, 1e-4)  # for derivatives by the two parts of a swing, and its frequency
 SHARE = 0.8  # of what the chosen model leaves beside noise, that a swing explains at least
 
@@ -59,55 +62,76 @@ class _Swinging:
         depth = self.trace.depth + UNIT * (x[-3] * np.sin(turn) + x[-2] * np.cos(turn))
         return Misfit(replace(self.trace, depth=depth, depths=None), p)
 
-    def starts(self) -> Iterator[Array]:
-        """The swings with which a linear model explains most."""
+    def starts(self, rates: Array) -> Iterator[Array]:
+        """The swings with which a linear model explains most. rates: Hz, at even steps."""
         known = self.fit.misfit.jacobian(self.fit.free, self.fit.u)
         known = np.linalg.qr(known / np.maximum(np.sqrt(np.sum(known**2, axis=0)), 1e-300))[0]
-        still = np.concatenate((self.fit.u, np.zeros(3)))
-        before = self.residuals(still)
+        before = self.residuals(np.concatenate((self.fit.u, np.zeros(3))))
         left = before - known @ (known.T @ before)
+
+        def column(swing: Array) -> Array:
+            added = self.residuals(np.concatenate((self.fit.u, swing))) - before
+            return np.asarray(added - known @ (known.T @ added))
+
+        def both(rate: float) -> float:
+            """What sine and cosine of a small swing explain together."""
+            columns = np.column_stack([column(np.array([*part, rate])) for part in np.eye(2)])
+            return float(np.sum((np.linalg.qr(columns)[0].T @ left) ** 2))
+
+        likely = sorted(rates, key=both)[-LIKELY:]
+        step = float(rates[1] - rates[0]) if len(rates) > 1 else 0.0
         best = []
-        for rate in self._rates():
+        for rate in np.clip(np.add.outer(likely, step * FINER).ravel(), rates[0], rates[-1]):
             gains = []
             for size, phase in product(SIZES, PHASES):
                 swing = np.array([size / UNIT * np.cos(phase), size / UNIT * np.sin(phase), rate])
-                column = self.residuals(np.concatenate((self.fit.u, swing))) - before
-                column = column - known @ (known.T @ column)
-                along = float(column @ left)
+                added = column(swing)
+                along = float(added @ left)
                 swing[:2] *= -np.sign(along)
-                gains.append((along**2 / max(float(column @ column), 1e-300), swing))
+                gains.append((along**2 / max(float(added @ added), 1e-300), swing))
             best.append(max(gains, key=lambda one: one[0]))
         best.sort(key=lambda one: -one[0])
         yield from (np.concatenate((self.fit.u, swing)) for _, swing in best[:STARTS])
 
-    def _rates(self) -> Array:
+    def rates(self) -> Array:
+        """Frequencies, Hz, so many that none between them is missed; of a very long trace only the slower ones."""
         span, in_tissue = float(self._since[-1]), float(np.mean(self.trace.depth > self._surface())) + 1e-9
         slowest = PERIODS / (span * in_tissue)
-        fastest = min(FASTEST, len(self.trace) / (SAMPLES * span))
-        count = int(min(MOST, PER_PERIOD * span * max(fastest - slowest, 0) + 1))
-        return np.linspace(slowest, max(fastest, slowest), count)
+        fastest = max(min(FASTEST, len(self.trace) / (SAMPLES * span), MOST / (PER_PERIOD * span)), slowest)
+        return np.linspace(slowest, fastest, int(np.ceil(PER_PERIOD * span * (fastest - slowest))) + 1)
 
     def _surface(self) -> float:
         return float(self.fit.parameters.membranes[:, 0].min())
 
 
-def moving_tissue(plain: Fit, chosen: Fit, assessment: Explained) -> Cause | None:
-    """The cause, if a swing explains nearly all that the chosen model does not. plain: K06's, of the same samples."""
-    trace = plain.misfit.trace
+def moving_tissue(trace: Trace, plain: Fit, chosen: Fit, assessment: Explained) -> Cause | None:
+    """The cause, if a swing explains nearly all that the chosen model does not. plain: K06's, perhaps of few samples.
+
+    A swing that ends at the slowest one is none: its period is not seen.
+    """
     if assessment.ok or trace.time is None or not plain.misfit.used.all():
         return None
+    fitted = plain.misfit.trace
+    enough = max(len(fitted), int(SAMPLES * FASTEST * float(np.ptp(trace.time))))
+    used = trace[:: max(1, len(trace) // enough)]
+    if len(used) > len(fitted):
+        misfit = Misfit(used, plain.parameters, zero=plain.misfit.zero)
+        plain = replace(plain, misfit=misfit, free=misfit.free(plain.free.names, plain.parameters))
+        plain = replace(plain, u=plain.free.coordinates(plain.parameters))
+        chosen = replace(chosen, misfit=Misfit(used, chosen.parameters).with_depth_error(chosen.parameters))
     model, free = _Swinging(plain), plain.free
-    low = np.concatenate((free.low, [-LARGEST, -LARGEST, 0.0]))
-    high = np.concatenate((free.high, [LARGEST, LARGEST, FASTEST]))
+    rates = model.rates()
+    low = np.concatenate((free.low, [-LARGEST, -LARGEST, rates[0]]))
+    high = np.concatenate((free.high, [LARGEST, LARGEST, max(rates[-1], 1.001 * rates[0])]))
     ends = [
         least_squares(model.residuals, model.jacobian, start, (low, high), 1e-5, 1e-6, EVALUATIONS)[0]
-        for start in model.starts()
+        for start in model.starts(rates)
     ]
     x = min(ends, key=lambda end: float(np.sum(model.residuals(end) ** 2)))
     left = float(np.sum(model.residuals(x) ** 2))
-    before = float(np.sum((chosen.misfit.forces(chosen.parameters) - trace.force) ** 2))
-    share = (before - left) / max(before - len(trace) * assessment.noise**2, 1e-300)
-    if not share > SHARE:
+    before = float(np.sum((chosen.misfit.forces(chosen.parameters) - model.trace.force) ** 2))
+    share = (before - left) / max(before - len(model.trace) * assessment.noise**2, 1e-300)
+    if not share > SHARE or x[-1] < SLOWEST * rates[0]:
         return None
     size, spring = UNIT * float(np.hypot(x[-3], x[-2])), free.parameters(x[:-3]).get("coupling_stiffness")
     text = (
