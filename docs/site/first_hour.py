@@ -16,6 +16,7 @@ import os
 import pty
 import re
 import shutil
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -89,7 +90,8 @@ def run(step: Step, folder: Path) -> str:
     work = folder / step.device
     (work / "bin").mkdir(parents=True, exist_ok=True)
     program = work / "bin" / "punctura"
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} {__file__} as {step.device} {step.state} "$@"\n')
+    words = shlex.join([sys.executable, __file__, "as", step.device, step.state])
+    program.write_text(f'#!/bin/sh\nexec {words} "$@"\n')
     program.chmod(0o755)
     environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "TERM": "dumb", "NO_COLOR": "1"}
     environment |= {"COLUMNS": str(COLUMNS), "HOME": str(work)}
