@@ -15,8 +15,8 @@ import json
 import os
 import pty
 import re
-import shutil
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
