@@ -19,6 +19,7 @@ ROLES = ("depth", "force", "time")
 REQUIRED = ("depth", "force")
 _QUANTITIES = {"depth": "length", "force": "force", "time": "time"}
 _MOST_LISTED = 30  # columns in a message
+_MOST_TAKEN = 3  # columns in a finding
 
 
 class Problem(NamedTuple):
@@ -119,6 +120,12 @@ def choose_columns(
                 findings.append(
                     Finding("column_by_unit", f"{text}. If that is wrong, name another (--column {role}=NAME)")
                 )
+            if role in REQUIRED and (others := _others(role, matches[0], table, taken)):
+                listed = " and ".join(repr(name) for name in others[:_MOST_TAKEN])
+                text = f"{names[matches[0]]!r} is taken as the {role}, and {listed} could be it, too"
+                findings.append(
+                    Finding("other_columns", f"{text}. If that is wrong, name another (--column {role}=NAME)")
+                )
         elif matches:
             listed = ", ".join(repr(names[i]) for i in matches[:_MOST_LISTED])
             problems.append(Problem("column", role, f"more than one column could be the {role}: {listed}"))
@@ -160,6 +167,15 @@ def _different(matches: Sequence[int], table: Mapping[str, Array]) -> list[int]:
         if len(held) and np.ptp(held) > 0 and not alike:
             kept[i] = values
     return list(kept) or list(matches)
+
+
+def _others(role: str, at: int, table: Mapping[str, Array], taken: Collection[int]) -> list[str]:
+    """The names of other columns that could be this one by name or unit, and differ from the one at `at`."""
+    names = list(table)
+    named = [i for i, (name, unit) in enumerate(map(split_name, names))
+             if role_named(name) == role and role_of(unit) in (role, "") and i not in taken]  # fmt: skip
+    could = sorted({*named, *by_unit(role, names, taken)} - {at})
+    return [names[i] for i in _different([at, *could], table) if i != at]
 
 
 def _signed(force: int, table: Mapping[str, Array]) -> int | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from punctura.trace.air import above_air, baseline, slope
 from punctura.trace.rig_force import without_rig_force
 from punctura.trace.samples import (
+    coarse_force,
     gaps,
     nothing_seen,
     smoothed,
@@ -40,6 +41,7 @@ def examine(trace: Trace) -> Trace:
     if nothing:
         return replace(trace, findings=(*trace.findings, *nothing))
     trace, found = without_spikes(trace)
+    found += coarse_force(trace)
     trace, held = with_depth_between(trace)
     found += held
     if trace.depth[0] - trace.depth.min() > 2 * (trace.depth.max() - trace.depth[0]):

@@ -1,8 +1,11 @@
 """Where the numbers of a table begin, and the names of its columns above them, as testing machines write them."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from punctura.trace.clock import is_clock
 from punctura.trace.decimals import Decimal, number
@@ -12,6 +15,8 @@ from punctura.trace.units import is_unit, split_cell, split_name, unit_of
 Row = Sequence[Any]  # cells: numbers, text, or empty (None or "")
 
 _NEAR = 8  # rows above the numbers, in which their names and units may stand
+_MOST_TEXTS = 1000  # rows without numbers that are looked at
+_FEWEST = 5  # rows of numbers: fewer are a table of results at the end
 _MOST_ABOVE = 200  # rows, in which a table of results may stand above that of the samples
 
 
@@ -51,7 +56,23 @@ def first_row(rows: Sequence[Row], width: int, decimal: Decimal = ".") -> int:
     return len(rows) if bare == [list(row) for row in rows] else first_row(bare, width, decimal)
 
 
-def other_heading(row: Row, above: Iterable[Row]) -> bool:
+def second_table(read: NDArray[np.bool_], row_at: Callable[[int], Row], above: Sequence[Row]) -> str:
+    """What is wrong where other names or units stand within the numbers, and numbers follow them; else empty.
+
+    read (n,): the rows that hold a number. row_at: the cells of a row.
+    """
+    for at in np.flatnonzero(~read)[:_MOST_TEXTS].tolist():
+        cells = row_at(at)
+        if _other_heading(cells, above) and read[at:].sum() >= _FEWEST:
+            named = ", ".join("" if cell is None else str(cell) for cell in cells)
+            return (
+                f"behind {int(read[:at].sum())} rows of numbers begins another table ({named:.80}), and its columns or "
+                "units are not those of the first one. Save each table as a file of its own"
+            )
+    return ""
+
+
+def _other_heading(row: Row, above: Iterable[Row]) -> bool:
     """Whether a row within the numbers names columns or units, and not as a row above them does."""
     plain = [[str(cell or "").strip().casefold() for cell in one] for one in (row, *above)]
     return _is_heading(row) and plain[0] not in plain[1:]

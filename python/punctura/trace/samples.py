@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
 from punctura.trace.segment import Segments
-from punctura.trace.steps import OFF, equal_runs
+from punctura.trace.steps import OFF, equal_runs, rounding
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -23,6 +23,7 @@ PULL, FINE = 3.0, 0.03  # times the noise, and of the range of the force: the ai
 AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
 NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
 ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
+ROUGH, TOO_ROUGH = 0.05, 1 / 3  # of the range of the force, is a step that is named; one that shows no rise
 READINGS, COARSE, MOST = 20, 0.005, 0.9  # held readings, share of the range that is no fine step, share of them
 
 
@@ -104,6 +105,15 @@ def gaps(trace: Trace) -> Iterator[Finding]:
         if steps.max() > max(20 * float(np.median(steps)), 5e-3 * float(np.ptp(trace.time))):
             text = f"no samples for {steps.max():.3g} s behind sample {int(np.argmax(steps)) + 1}"
             yield Finding("gap", f"{text}; what the needle did there is not known, so the fit can be wrong")
+
+
+def coarse_force(trace: Trace) -> Iterator[Finding]:
+    """Steps of the force that are large beside its range, as of a file in kN with few digits."""
+    step, height = float(np.sqrt(12)) * rounding(trace.force), float(np.ptp(trace.force))
+    if step > ROUGH * height:
+        text = f"the force is given in steps of {step:.2g} N, and its range is {height:.2g} N: what lies between is not"
+        advice = "known. Export it with more digits or in a smaller unit, or take a finer sensor"
+        yield Finding("coarse_force", f"{text} {advice}", severe=step >= TOO_ROUGH * height)
 
 
 def smeared(*air: Array) -> int:

@@ -12,13 +12,15 @@ Array = NDArray[Any]
 DIGITS = 1e-9  # of the range of the values: differences as small are of the computer
 OFF = 0.1  # of a step, rms: values that are farther off lie on no grid; by chance they are off by 0.29
 FEWEST, PARTS = 4, 5  # differences that show a step; the least one may be so many steps
+MANY = 10  # samples for each value: fewer differences show a step, too, where the values come again so often
 
 
 def rounding(values: Array) -> float:
     """The standard deviation of the rounding to multiples of a step, in the unit of values; 0 if there is none."""
     apart = np.diff(np.unique(values))
     apart = apart[apart > DIGITS * float(np.ptp(values))]
-    for parts in range(1, PARTS + 1 if len(apart) >= FEWEST else 1):
+    few = min(len(apart), 1) if len(values) >= MANY * (len(apart) + 1) else 0
+    for parts in range(1, 1 + (PARTS if len(apart) >= FEWEST else few)):
         step = float(apart.min()) / parts
         for _ in range(2):  # a file may give the step itself in few digits
             step = float(apart.sum() / np.round(apart / step).sum())

@@ -60,6 +60,7 @@ class Table(dict[str, NDArray[np.float64]]):
     def __init__(self, columns: Mapping[str, NDArray[np.float64]] | None = None) -> None:
         super().__init__(columns or {})
         self.findings: list[Finding] = []  # about the file
+        self.unclear = ""  # why it is no trace, although it has the columns of one
 
 
 _BEGINNINGS = {

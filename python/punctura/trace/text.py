@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from punctura.trace.cells import are_plain, column, unit_beside
 from punctura.trace.decimals import Decimal, DoubtfulNumber, decimal_in, has_decimal_comma, numbers
 from punctura.trace.encoding import encoding_of
-from punctura.trace.heading import column_names, first_row, other_heading, with_unit
+from punctura.trace.heading import column_names, first_row, second_table, with_unit
 from punctura.trace.lines import (
     LOOKED_AT,
     MOST_BYTES,
@@ -44,8 +44,6 @@ Array = NDArray[np.float64]
 
 _DELIMITERS = (";", "\t", "|", ",")  # a comma may be the decimal point of the others
 _BLOCK = 1 << 22  # bytes: more than a line has
-_MOST_TEXTS = 1000  # rows without numbers that are looked at
-_FEWEST = 5  # rows of numbers: fewer are a table of results at the end
 _MOST_BROKEN = 1_000_000  # rows with another number of cells than the last ones
 
 
@@ -107,7 +105,9 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
         )
         remedy = 'thousands? Say --decimal point or --decimal comma (in Python: decimal="." or decimal=",")'
         raise DecimalError(f"{text} {remedy}", ["--decimal point|comma"]) from None
-    _check_headings(path, cells, columns, titles)
+    read_rows = np.any([np.isfinite(column) for column in columns], axis=0)
+    if second := second_table(read_rows, lambda row: [*cells.slice(row, 1).to_pylist()[0].values()], titles):
+        raise TraceError(f"{path}: {second}")
     if letters.doubtful:
         text = "the encoding of the names is not known; if they matter, state it (--encoding gbk, shift_jis, ...)"
         table.findings.append(Finding("encoding", text))
@@ -152,19 +152,6 @@ class _Rows(io.RawIOBase):
 def _spaced(line: str, delimiter: str) -> str:
     """The line with single spaces, if these are the delimiter."""
     return " ".join(re.split("[ \t]+", line.strip())) if delimiter == " " else line
-
-
-def _check_headings(path: Path, cells: pa.Table, columns: Sequence[Array], above: Sequence[Sequence[str]]) -> None:
-    """Raises TraceError where other names or units stand within the numbers, and numbers follow them."""
-    read = np.any([np.isfinite(column) for column in columns], axis=0)
-    for row in np.flatnonzero(~read)[:_MOST_TEXTS].tolist():
-        words = [cell or "" for cell in cells.slice(row, 1).to_pylist()[0].values()]
-        if other_heading(words, above) and read[row:].sum() >= _FEWEST:
-            named = ", ".join(words)
-            raise TraceError(
-                f"{path}: behind {int(read[:row].sum())} rows of numbers begins another table ({named:.80}), and its "
-                "columns or units are not those of the first one. Save each table as a file of its own"
-            )
 
 
 def _unit_beside(name: str, cells: pa.ChunkedArray) -> str:

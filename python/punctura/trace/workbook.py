@@ -5,10 +5,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any
 
+import numpy as np
+
 from punctura.extras import MissingPackageError, optional
 from punctura.trace.cells import column, unit_beside
 from punctura.trace.decimals import Decimal, decimal_in
-from punctura.trace.heading import column_names, first_row, with_unit
+from punctura.trace.heading import column_names, first_row, second_table, with_unit
 from punctura.trace.lines import LOOKED_AT
 from punctura.trace.packed import check_workbook
 from punctura.trace.reading import Reading, only_trace, wanted_sheet
@@ -32,7 +34,10 @@ def read_workbook(path: Path, reading: Reading, old: bool) -> Table:
         raise
     except Exception as error:  # readers raise many types for a damaged file
         raise unreadable(path, "XLS" if old else "XLSX", error) from None
-    return only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+    table = only_trace(path, {name: table for name, table in tables.items() if table}, reading)
+    if table.unclear:
+        raise TraceError(f"{path}: {table.unclear}")
+    return table
 
 
 def _specimens(names: list[str]) -> list[str]:
@@ -91,6 +96,9 @@ def _table(path: Path, rows: Sequence[tuple[Any, ...]], decimal: Decimal | None)
         named, values = column(name, cells[i], mark, decimal is not None)
         beside = unit_beside(names[i + 1], set(cells[i + 1])) if i + 1 < width else ""
         table[with_unit(named, beside)] = values
+    if table:
+        read = np.any([np.isfinite(values) for values in table.values()], axis=0)
+        table.unclear = second_table(read, lambda row: rows[first + row], rows[:first])
     return table
 
 

@@ -300,3 +300,23 @@ def test_a_stated_unit_is_never_refused(tmp_path):
         ]
         (tmp_path / "b.csv").write_text("\n".join(["time_s,depth_mm,force_N", *rows]))
         assert not read_trace(tmp_path / "b.csv").findings
+
+
+@pytest.mark.parametrize(
+    ("names", "taken", "other"),
+    [
+        ("force_tip_N,force_base_N", "force_tip_N", "force_base_N"),
+        ("Load (N),Force (N)", "Force (N)", "Load (N)"),
+        ("Fz (N),Cell B (N)", "Fz (N)", "Cell B (N)"),
+    ],
+)
+def test_a_second_force_is_named_beside_the_one_that_is_taken(tmp_path, names, taken, other):
+    share = 0.6 if names.startswith(taken) else 1 / 0.6
+    rows = [f"{t},{1e3 * d},{f},{f / 0.6}" for t, d, f in SAMPLES]
+    (tmp_path / "a.csv").write_text("\n".join([f"time_s,depth_mm,{names}", *rows]))
+    (finding,) = read_trace(tmp_path / "a.csv").findings
+    assert finding.kind == "other_columns" and "--column force=NAME" in finding.text
+    assert f"{taken!r} is taken as the force, and {other!r} could be it, too" in finding.text
+    stated = read_trace(tmp_path / "a.csv", {"force": other})
+    assert not stated.findings
+    assert share * stated.force == pytest.approx(read_trace(tmp_path / "a.csv").force)

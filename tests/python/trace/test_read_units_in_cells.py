@@ -1,10 +1,12 @@
-"""Numbers with a unit in each cell, units in a column of their own, and clocks that are too coarse."""
+"""Numbers with a unit in each cell, units in a column of their own, and clocks and forces that are too coarse."""
 
 import json
 
+import numpy as np
 import pytest
 from openpyxl import Workbook
 from punctura.trace import TraceError, read_trace
+from punctura.trace.steps import rounding
 from traces import trace
 
 MADE = trace()
@@ -81,3 +83,22 @@ def test_a_clock_of_whole_seconds_is_no_time(tmp_path):
     assert not coarse.severe and "the trace is read without time" in coarse.text
     [stated] = read_trace(tmp_path / "a.csv", {"time": "time"}).findings
     assert stated.severe and "are left out. Record a finer time" in stated.text
+
+
+def in_kilonewtons(path, digits):
+    lines = ["time_s,depth_mm,force_kN", *(f"{t:.6f},{d:.6f},{1e-3 * f:.{digits}f}" for t, d, f in ROWS)]
+    return read_trace(written(path, lines))
+
+
+def test_a_force_of_few_digits_is_named_with_its_step(tmp_path):
+    fine = in_kilonewtons(tmp_path / "a.csv", 5)
+    assert not fine.findings and rounding(fine.force) == pytest.approx(0.01 / np.sqrt(12), rel=1e-3)
+    (finding,) = in_kilonewtons(tmp_path / "a.csv", 4).findings
+    assert finding.kind == "coarse_force" and "in steps of 0.1 N" in finding.text and not finding.severe
+    (finding,) = [one for one in in_kilonewtons(tmp_path / "a.csv", 3).findings if one.kind == "coarse_force"]
+    assert finding.severe and "in steps of 1 N" in finding.text
+
+
+def test_a_few_values_that_come_again_show_their_step():
+    assert rounding(np.tile([0.0, 2.0, 4.0], 20)) == pytest.approx(2 / np.sqrt(12))
+    assert rounding(np.zeros(30)) == rounding(np.array([0.0, 1.0, 3.3])) == 0.0

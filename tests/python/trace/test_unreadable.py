@@ -84,3 +84,25 @@ def test_another_table_within_the_numbers_is_no_part_of_the_first(tmp_path):
         read_trace(path)
     path.write_text(f"time_s,depth_mm,force_N\n{rows}\nmax. time_s,max. depth_mm,max. force_N\n1.9,19,361\n")
     assert len(read_trace(path)) > 19  # a table of results at the end is as short as that
+
+
+def test_another_table_within_a_sheet_is_no_part_of_the_first(tmp_path):
+    rows = [[0.1 * i, i, i * i] for i in range(20)]
+    book = Workbook()
+    for row in (
+        ["time_s", "depth_mm", "force_N"],
+        *rows,
+        [],
+        ["Specimen 2"],
+        ["time_s", "depth_mm", "force_mN"],
+        *rows,
+    ):
+        book.active.append(row)
+    book.save(tmp_path / "a.xlsx")
+    with pytest.raises(TraceError, match=r"behind 20 rows .* \(time_s, depth_mm, force_mN\).* a file of its own"):
+        read_trace(tmp_path / "a.xlsx")
+    sheet = book.create_sheet("Trace")
+    for row in (["time_s", "depth_mm", "force_N"], *rows):
+        sheet.append(row)
+    book.save(tmp_path / "a.xlsx")
+    assert len(read_trace(tmp_path / "a.xlsx", sheet="Trace")) == 20
