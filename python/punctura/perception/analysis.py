@@ -62,6 +62,7 @@ class Person(BaseModel):
 
     participant: str
     device: str = ""  # its model; empty for an observer
+    device_simulated: bool = False  # then no hand felt a force
     trials: int  # scored
     threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
     # difference from the reference that is told with a probability half-way between guess and 1

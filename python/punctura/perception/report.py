@@ -18,6 +18,7 @@ from punctura.perception.analysis import (
     SHARES,
     Analysis,
     Answers,
+    Detection,
     Estimate,
     Person,
     analyse,
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_PANELS = 12
-ABREAST, KEYS = 3, ("dprime", "criterion")  # people beside each other in a table of d', and what it has of each
+ABREAST = 3  # people beside each other in a table of d'
 STYLE = (
     "@page{size:A4;margin:10mm}body{font:8pt/1.3 system-ui,sans-serif;max-width:190mm;margin:auto}"
     "h1{font-size:13pt}h2{font-size:10pt}table{border-collapse:collapse}svg{width:100%;height:auto;max-height:120mm}"
@@ -51,7 +52,8 @@ CAPTIONS = {
 DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("participant", pa.string(), "", "pseudonym"),
     ("participant_number", pa.int64(), "", "from 0, decides the order of the trials"),
-    ("device", pa.string(), "", "its model; of a simulated one no hand felt a force; empty for observers"),
+    ("device", pa.string(), "", "its model; empty for observers"),
+    ("device_simulated", pa.bool_(), "", "whether no hand felt a force; empty for observers"),
     ("trial", pa.int64(), "", "number of the trial in the session, from 0, practice included"),
     ("block", pa.int64(), "", "from 0"),
     ("kind", pa.string(), "", "practice, trial or catch; only trial is in the fit"),
@@ -78,19 +80,20 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
 
     Raises SessionError if there is none, or one of another protocol.
     """
-    found, rows, devices = {}, list[dict[str, object]](), {}
+    found, rows, headers = {}, list[dict[str, object]](), dict[str, Header]()
     for path in sessions(folder):
         header, lines = read_session(path)
         if header:
             check_header(header, protocol, path)
             check_lines(lines, protocol, path)
-            found[path.stem], devices[path.stem] = lines, header.device
+            found[path.stem], headers[path.stem] = lines, header
             rows += [_row(protocol, header, line) for line in lines]
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
     analysis = analyse(protocol, found)
     for one in analysis.people:
-        one.device = devices[one.participant]
+        header = headers[one.participant]
+        one.device, one.device_simulated = header.device, header.device_simulated
     table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
     about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
     for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
@@ -117,6 +120,10 @@ def words(one: Estimate | None) -> str:
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     return [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)] + [""]
+
+
+def _cells(one: Detection | None) -> tuple[str, ...]:
+    return (str(one.trials), words(one.dprime), words(one.criterion)) if one else ("-",) * 3
 
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
@@ -149,16 +156,16 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
-    for device in sorted({one.device for one in found.people} - {""}):
+    for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)
-        lines += [f"Device of {names}: {device}{NO_FORCE * device.endswith('simulated')}.", ""]
+        lines += [f"Device of {names}: {device}{NO_FORCE * simulated}.", ""]
     detected = [one for one in found.people if one.detection]
     lines += ["## d'", ""] * bool(detected)
     for i in range(0, len(detected), ABREAST):
         some = {one.participant: {each.level: each for each in one.detection} for one in detected[i : i + ABREAST]}
-        head = [f"level{unit}", *(f"{name}, {what}" for name in some for what in ("d'", "criterion"))]
+        head = [f"level{unit}", *(f"{name}, {what}" for name in some for what in ("trials", "d'", "criterion"))]
         rows = [
-            [f"{level:.4g}", *(words(getattr(each.get(level), key, None)) for each in some.values() for key in KEYS)]
+            [f"{level:.4g}", *(cell for each in some.values() for cell in _cells(each.get(level)))]
             for level in sorted({level for each in some.values() for level in each})
         ]
         lines += _table(head, rows)
@@ -277,6 +284,7 @@ def _row(protocol: Protocol, header: Header, line: Line) -> dict[str, object]:
         "participant": header.participant,
         "participant_number": header.number,
         "device": header.device,
+        "device_simulated": header.device_simulated if header.device else None,
         "felt_level": felt_level(protocol, line)[0] if protocol.in_newtons else None,
         "counted": None if lacks else bool(counted(protocol, line.position, line.answer)),
         "force_scale": mine.scale,

@@ -31,6 +31,16 @@ class SessionError(PuncturaError):
 class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
 
+    remedy = "free some space"
+
+    @property
+    def fact(self) -> str:
+        """What is wrong, with the file, without the remedy."""
+        return str(self.args[0])
+
+    def __str__(self) -> str:
+        return f"{self.fact}: {self.remedy}"
+
 
 class Header(BaseModel, frozen=True):
     """The first line of a session."""
@@ -41,6 +51,7 @@ class Header(BaseModel, frozen=True):
     number: NonNegativeInt  # of the participant: decides the order
     simulated: bool = False
     device: str = ""  # its model; empty for an observer
+    device_simulated: bool = False  # then no hand felt a force
     version: str  # of Punctura
     began: str = ""  # ISO 8601, UTC
     consent: bool = False
@@ -79,7 +90,7 @@ class Session:
 
     def __init__(
         self, protocol: Protocol, folder: Path, participant: str, consent: bool = False, simulated: bool = False,
-        device: str = "",
+        device: str = "", device_simulated: bool = False,
     ) -> None:  # fmt: skip
         """simulated: whether an observer answers; a folder has people or observers.
 
@@ -99,8 +110,8 @@ class Session:
             if header is None:
                 header = Header(
                     protocol=protocol.name, digest=protocol.digest, participant=participant, version=__version__,
-                    number=_free_number(others, simulated), simulated=simulated, device=device, began=_now(),
-                    consent=bool(protocol.file.consent),
+                    number=_free_number(others, simulated), simulated=simulated, began=_now(),
+                    device=device, device_simulated=device_simulated, consent=bool(protocol.file.consent),
                 )  # fmt: skip
                 self._append(header)
             check_header(header, protocol, self.path)
@@ -147,9 +158,7 @@ class Session:
         except OSError as bad:
             os.ftruncate(self._descriptor, size)
             if bad.errno in (errno.ENOSPC, errno.EDQUOT):
-                raise DiskFullError(
-                    f"{self.path}: the disk is full, and this answer is not saved: free some space"
-                ) from None
+                raise DiskFullError(f"{self.path}: the disk is full, and this answer is not saved") from None
             raise
 
     def _repeat(self, line: Line) -> None:

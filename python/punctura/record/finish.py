@@ -30,6 +30,7 @@ class RecorderStatus:
     waiting_bytes: int = 0  # not yet written
     slowest_write_s: float = 0.0  # of a block
     trouble: str = ""
+    fact: str = ""  # of `trouble`: what is wrong, without where the ticks are; set at the end
     notes: list[str] = field(default_factory=list)  # for the user
 
     @property
@@ -99,12 +100,12 @@ def finish_recording(
     finally:
         file.close()
     if not status.rows:
-        return replace(status, trouble=f"{trouble}; no tick of the recording can be read")
+        return replace(status, fact=trouble, trouble=f"{trouble}; no tick of the recording can be read")
     place = status.file or "the moved file; this system does not report its new path"
     stays = f"the recording is in {place}" + (f", readable up to tick {status.last_tick}" if part else "")
     source = shlex.quote(str(status.file)) if status.file else "MOVED_FILE"
     how = f"to finish it, run: punctura export {source} --out FILE.parquet"
-    return replace(status, trouble=f"{trouble}; {stays}; {how}")
+    return replace(status, fact=trouble, trouble=f"{trouble}; {stays}; {how}")
 
 
 def _is_spoiled(bad: BaseException, change: FileChange | None) -> bool:

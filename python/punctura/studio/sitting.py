@@ -23,8 +23,8 @@ from punctura.events import crossing
 from punctura.perception.course import Trial, counted
 from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
+from punctura.perception.session import DiskFullError, agreed, recordings
 from punctura.perception.session import Session as Answers
-from punctura.perception.session import agreed, recordings
 from punctura.perception.stimulus import READY_S, Felt, felt_of
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
@@ -34,6 +34,8 @@ from punctura.studio.wire.messages import AnswerKey, SittingMessage
 from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
+ENDED = "the run has ended"
+MEND = "mend this (on a full disk, make space)"
 NOISE_S = 20
 Then = Callable[[str], None]  # gets an answer
 
@@ -68,6 +70,7 @@ class PerceptionSitting:
         self._over = True  # the interval: the needle may do what it wants
         self._through = math.inf  # depth behind the judged membrane, m
         self._whole = self._faded = 0.0  # ticks since the force came on, and since the last stimulus began to fade in
+        self._last = -1  # tick
         self._touched = self._was_through = self._uncovered = False
         self._answers: Answers | None = None
         if agreed(protocol, self._folder, participant) or not protocol.file.consent:
@@ -93,10 +96,12 @@ class PerceptionSitting:
             self._answers.__exit__(None, None, None)
 
     def _open(self) -> None:
-        info = self._studio.bench.device.info
+        bench = self._studio.bench
+        info, simulated = bench.device.info, bench.simulated
         self._answers = Answers(
-            self._protocol, self._folder, self._participant, consent=True, device=info.model or info.backend
-        )
+            self._protocol, self._folder, self._participant, consent=True, device=info.model or info.backend,
+            device_simulated=simulated,
+        )  # fmt: skip
 
     def _consented(self, answer: str) -> None:
         if answer == "no":
@@ -105,7 +110,7 @@ class PerceptionSitting:
         try:
             self._open()
         except (PuncturaError, OSError) as bad:
-            self._pause(sentence_of(bad), self._consented)
+            self._pause(bad, self._consented)
         else:
             self._welcome()
 
@@ -145,7 +150,7 @@ class PerceptionSitting:
                 file.unlink(missing_ok=True)  # of attempts before, and what a kill left of one
             studio.begin_activity(self, self._scene(), None, self._name(), about)
         except (PuncturaError, OSError) as bad:
-            self._pause(sentence_of(bad), lambda _: self._armed())
+            self._pause(bad, lambda _: self._armed())
         else:
             self._explore()
 
@@ -191,8 +196,8 @@ class PerceptionSitting:
         self._faded = -math.inf  # until a tick takes the stimulus
         try:
             self._studio.edit(self._scene())
-        except (PuncturaError, ValueError) as bad:
-            self._finish(str(bad))
+        except Exception as bad:  # also a defect: the trial is repeated, and the studio stays
+            self._finish(explain(bad))
         else:
             self._explore()
 
@@ -209,12 +214,12 @@ class PerceptionSitting:
             except Exception as bad:
                 why = explain(bad)
             spoilt = partial(self._again, why)
-            if status.trouble and not reason:  # the disk's; its first words have the file and what is wrong
-                spoilt = partial(self._pause, status.trouble.partition(";")[0], lambda _: self._armed())
+            if status.trouble and not reason:  # the disk's
+                spoilt = partial(self._pause, status.fact, lambda _: self._armed())
             self._studio.jobs.post(spoilt if why else lambda: self._ask(found))
 
         if not self._studio.recording:  # the ticks have ceased, and ended the run
-            self._again(reason)
+            self._again(reason or ENDED)
             return
         self._studio.end_run(finished)
         self._idle()
@@ -230,11 +235,13 @@ class PerceptionSitting:
         words = self._words.repeated.format(why=why.rstrip(". "))
         self._say(f"{words} {self._words.wait}", GO, lambda _: self._armed())
 
-    def _pause(self, why: str, then: Then) -> None:
+    def _pause(self, why: Exception | str, then: Then) -> None:
         """The participant calls the experimenter, whose terminal has the reason."""
         self._studio.run.loop.pause()
-        remedy = "" if "free some space" in why else "mend this (on a full disk, make space), "
-        self._tell(f'{why.rstrip(". ")}; {remedy}then press "{self._words.go_on}" at the page')
+        fact, remedy = why if isinstance(why, str) else sentence_of(why), MEND
+        if isinstance(why, DiskFullError):
+            fact, remedy = why.fact, why.remedy
+        self._tell(f'{fact.rstrip(". ")}; {remedy}, then press "{self._words.go_on}" at the page')
         self._say(self._words.paused, GO, then)
 
     def _ask(self, felt: list[Felt]) -> None:
@@ -247,7 +254,7 @@ class PerceptionSitting:
         try:
             self._answers.add(trial, answer, felt, [f"{self._name()}.parquet"])
         except (PuncturaError, OSError) as bad:
-            self._pause(sentence_of(bad), lambda _: self._save(answer, felt))
+            self._pause(bad, lambda _: self._save(answer, felt))
             return
         if trial.kind == "practice" and protocol.intervals > 1 and not protocol.compares:
             right = counted(protocol, trial.position, answer)
@@ -271,11 +278,14 @@ class PerceptionSitting:
 
     def begin(self, scene: Scene) -> None:
         self._whole = self._faded = 0.0
+        self._last = -1
 
     def ticks(self, ticks: Ticks, now: float) -> Sequence[BaseModel]:
         self._press(ticks.buttons)
         self._whole = _since(ticks.state != ServoState.active, self._whole)
-        self._faded = _since(ticks.commands & COMMAND_SCENE != 0, self._faded)
+        gaps = np.diff(ticks.tick.astype(np.int64), prepend=self._last) != 1  # a tick that was lost may have taken it
+        self._last = int(ticks.tick[-1])
+        self._faded = _since(gaps | (ticks.commands & COMMAND_SCENE != 0), self._faded)
         if self._over:
             return ()
         outside = bool(np.isin(ticks.phase[-1], (int(Phase.outside), ABSENT)).all())
@@ -309,7 +319,7 @@ class PerceptionSitting:
     def stop(self) -> None:
         if not self._over:  # the ticks have ceased
             self._over = True
-            self._studio.jobs.post(lambda: self._finish("the run has ended"))
+            self._studio.jobs.post(lambda: self._finish(ENDED))
 
     def finish(self) -> Outcome:
         return Outcome()

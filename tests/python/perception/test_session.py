@@ -6,6 +6,7 @@ import io
 import json
 import os
 import random
+import re
 import wave
 from collections.abc import Callable
 from pathlib import Path
@@ -173,7 +174,9 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
         rows = list(csv.DictReader(opened))
     assert len(rows) == 304 and {row["kind"] for row in rows} == {"practice", "trial", "catch"}
     report, picture = ((folder / name).read_text() for name in ("report.md", "functions.svg"))
-    assert "| O01 | 120 |" in report and "JND" not in report and "false alarms" in report and "Bar: that" in report
+    assert "| O01 | 120 |" in report
+    assert "| level, m | O01, trials | O01, d' | " in report and re.search(r"\n\| 0\.0027 \| 20 \| ", report)
+    assert "JND" not in report and "false alarms" in report and "Bar: that" in report
     assert "<!-- thickness of the thin membrane, mm -->" in picture
     html = (folder / "report.html").read_text()
     assert "<tr><td>O01<td>120<td>" in html and "<svg" in html and "functions.svg" not in html

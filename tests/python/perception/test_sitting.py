@@ -1,7 +1,7 @@
 """A session in the studio without a browser: what the page is told, what it answers, what the needle did."""
 
 import errno
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -10,7 +10,7 @@ import pytest
 from protocols import COMPARES, RIGHT, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
-from punctura.perception import Session, SessionError, load_protocol, read_session, write_report
+from punctura.perception import DiskFullError, Session, SessionError, load_protocol, read_session, write_report
 from punctura.perception.course import Line
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
@@ -21,6 +21,8 @@ from punctura.studio.loaded import Loaded, from_name
 from punctura.studio.run import Run, Settings
 from punctura.studio.serve import StudioServer
 from punctura.studio.sitting import PerceptionSitting
+from punctura.ticks import COMMAND_SCENE, Ticks
+from pydantic import BaseModel
 from waiting import LATE_ALLOWED, wait_until
 
 TOLD: list[str] = []  # at the terminal
@@ -130,20 +132,29 @@ def test_everything_that_is_written_names_the_device(tmp_path: Path) -> None:
         person.goes_through()
         person.reads("Did it pop?")
         person.answers("yes")
-    assert read_session(tmp_path / "out" / "P01.jsonl")[0].device == device
+    header = read_session(tmp_path / "out" / "P01.jsonl")[0]
+    assert header.device == device and header.device_simulated
     with pytest.raises(SessionError, match=f"began on {device}, and this is Touch: choose with --device"):
         Session(protocol, tmp_path / "out", "P01", device="Touch")
+    Session(protocol, tmp_path / "out", "P02", device="Touch (simulated)").__exit__()
     assert write_report(protocol, tmp_path / "out").people[0].device == device
-    assert f"Device of P01: {device}; no hand felt a force" in (tmp_path / "out" / "report.md").read_text()
-    assert f"P01,0,{device}" in (tmp_path / "out" / "trials.csv").read_text().replace('"', "")
+    report = (tmp_path / "out" / "report.md").read_text()
+    assert f"Device of P01: {device}; no hand felt a force" in report and "P02: Touch (simulated)." in report
+    assert f"P01,0,{device},true" in (tmp_path / "out" / "trials.csv").read_text().replace('"', "")
 
 
 def test_the_needle_may_go_in_once_the_ticks_say_that_the_force_is_on(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On a busy computer the ramp and the fade, which grow by ticks, take longer than on the clock."""
+    """On a busy computer the ramp and the fade, which grow by ticks, take longer than on the clock, and the tick that
+    takes a stimulus may be lost to the page."""
     take = PerceptionSitting.ticks
-    monkeypatch.setattr(PerceptionSitting, "ticks", lambda sitting, ticks, now: take(sitting, ticks, now + 60))
+
+    def late(sitting: PerceptionSitting, ticks: Ticks, now: float) -> Sequence[BaseModel]:
+        seen = ticks[ticks.commands & COMMAND_SCENE == 0]
+        return take(sitting, seen, now + 60) if len(seen) else ()
+
+    monkeypatch.setattr(PerceptionSitting, "ticks", late)
     with sat(tmp_path, COMPARES) as (person, _):
         person.reads("The session begins.")
         person.answers("Go on")
@@ -171,6 +182,11 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
     with sat(tmp_path, RIGHT.replace("total = 120", "total = 120\npractice = 2")) as (person, server):
         person.reads("The session begins.")
         edit = server.session.edit
+        with monkeypatch.context() as now:
+            now.setattr(server.session, "edit", lambda _: [][0])
+            person.answers("Go on")
+            person.goes_through("interval 1")
+            person.reads("repeated: a defect")
 
         def inside(loaded: Loaded) -> None:
             monkeypatch.undo()
@@ -197,11 +213,12 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
 def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """By a limit, by a fault, without force, on a full disk; and an answer that the disk does not take is asked for
     again."""
-    (tmp_path / "out").mkdir()
-    left, others = (tmp_path / "out" / f"P01-0000-{name}.parquet" for name in ("7", "0005-1"))  # P01's, P01-0000's
+    folder = tmp_path / "a; free some space"
+    (folder / "out").mkdir(parents=True)
+    left, others = (folder / "out" / f"P01-0000-{name}.parquet" for name in ("7", "0005-1"))  # P01's, P01-0000's
     for file in (left, others):
         file.write_bytes(b"")
-    with sat(tmp_path, YES, ForceLimits(max_force=0.2)) as (person, server):
+    with sat(folder, YES, ForceLimits(max_force=0.2)) as (person, server):
         person.reads("The session begins.")
         person.answers("Go on")
         person.goes_through(depth=0.001)
@@ -209,7 +226,7 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         person.reads("repeated: the force was cut: peak limit. Hold")
         person.answers("Go on")
         person.reads("push")
-        assert {file.name[:10] for file in (tmp_path / "out").glob("*.parquet*")} == {"P01-0000-2", others.name[:10]}
+        assert {file.name[:10] for file in (folder / "out").glob("*.parquet*")} == {"P01-0000-2", others.name[:10]}
         assert person.page.ask(do="trip_fault")["ok"]
         person.reads("repeated: ")
         server.session.bench.settings = Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED))
@@ -225,19 +242,20 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
             person.answers("Go on")
             person.goes_through()
             person.reads("The session has paused. Please call the experimenter.")
-            assert TOLD[-1].endswith(f"-4.parquet.part could not be written: No space left on device; {REMEDY}")
+            part = folder / "out" / "P01-0000-4.parquet.part"
+            assert TOLD[-1] == f"{part} could not be written: No space left on device; {REMEDY}"
         person.answers("Go on")
         person.goes_through()
         person.reads("Did it pop?")
         add = Session.add
-        monkeypatch.setattr(Session, "add", lambda *_: raised(full))
+        monkeypatch.setattr(Session, "add", lambda *_: raised(DiskFullError("P01.jsonl: the disk is full")))
         person.answers("yes")
         person.reads("The session has paused. Please call the experimenter.")
-        assert TOLD[-1] == f"[Errno 28] No space left; {REMEDY}"
+        assert TOLD[-1] == 'P01.jsonl: the disk is full; free some space, then press "Go on" at the page'
         monkeypatch.setattr(Session, "add", add)
         person.answers("Go on")
         person.reads("Trial 2")
-    assert [line.answer for line in saved(tmp_path)] == ["yes"]
+    assert [line.answer for line in saved(folder)] == ["yes"]
 
 
 def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_answer(
