@@ -44,7 +44,8 @@ class Answers(NamedTuple):
     counted: Array  # 1 for the counted answer; the points of a rating
     right: Array  # 1 for a right answer or yes, a rating, a setting; NaN where none is right
     block: Array
-    side: Array  # 1: the comparison was in the first interval; -1: in another one
+    side: Array  # 1: the comparison was in the first interval; -1: in another one. Of a setting: it began at the
+    # highest level; at the lowest one
     reference: Array  # the level of the other intervals, felt or planned as x; NaN without one
 
 
@@ -95,8 +96,13 @@ class Analysis(BaseModel):
 def answers_of(protocol: Protocol, lines: Sequence[Line]) -> tuple[Answers, Answers]:
     """The trials without practice, and the catch trials."""
     rows: dict[str, list[tuple[float, ...]]] = {"trial": [], "catch": [], "practice": []}
+    side = 0.0
     for line in lines:
         hit = float(line.answer if protocol.rates else counted(protocol, line.position, line.answer))
+        if not protocol.adjusts:
+            side = 1.0 if line.position == 0 else -1.0
+        elif not side:  # the first look
+            side = 1.0 if line.level == protocol.levels[-1] else -1.0
         if protocol.adjusts and hit:
             continue  # no setting yet
         felt, reference = felt_level(protocol, line)
@@ -104,8 +110,8 @@ def answers_of(protocol: Protocol, lines: Sequence[Line]) -> tuple[Answers, Answ
         if protocol.compares:
             more = (line.level > (protocol.reference or 0.0)) == protocol.rises
             right = float("nan") if line.level == protocol.reference else float((hit == 1) == more)
-        side = 1.0 if line.position == 0 else -1.0
         rows[line.kind].append((line.level, felt, hit, right, float(line.block), side, reference))
+        side = 0.0
     trials, catch = (Answers(*np.array(rows[kind], np.float64).reshape(-1, 7).T) for kind in ("trial", "catch"))
     return trials, catch
 
@@ -248,14 +254,16 @@ def _slope(x: Array, y: Array) -> Estimate:
 def _settings(protocol: Protocol, found: Answers) -> tuple[Estimate, Estimate]:
     """The mean setting, and the JND: the deviation that half of the settings exceed, if they are normal.
 
-    Settings that scatter by less than the steps between the levels show the steps: they tell how large the JND is at
-    most.
+    Those that begin high end higher, which is no noise: as many begin at either end. Settings that scatter by less than
+    the steps between the levels show the steps: they tell how large the JND is at most.
     """
-    jnd, free = QUARTER * float(found.x.std(ddof=1)), len(found.x) - 1
+    begun = [some for side in (1, -1) if len(some := found.x[found.side == side])]
+    free = len(found.x) - len(begun)
+    jnd = QUARTER * _spread_of(begun)
     low, high = (float(np.sqrt(free / chdtri(free, share))) * jnd for share in SHARES)
     shown = [level for level in protocol.levels if found.level.min() <= level <= found.level.max()]
     half = float(np.diff(shown).max()) / 2
-    return _mean(found.x), Estimate(jnd, low, high) if jnd >= half else Estimate(np.nan, -np.inf, max(high, half))
+    return _mean(*begun), Estimate(jnd, low, high) if jnd >= half else Estimate(np.nan, -np.inf, max(high, half))
 
 
 def _estimate(belief: Belief, values: Array) -> Estimate:
@@ -312,7 +320,15 @@ def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Line]]) -> Analy
     return result
 
 
-def _mean(values: Array) -> Estimate:
-    middle, error = float(values.mean()), float(values.std(ddof=1)) / np.sqrt(len(values))
-    half = float(stdtrit(len(values) - 1, SHARES[1])) * error
+def _mean(*groups: Array) -> Estimate:
+    """Of the groups' means: what differs between the groups is no noise."""
+    middle, free = float(np.mean([one.mean() for one in groups])), sum(map(len, groups)) - len(groups)
+    error = _spread_of(groups) * np.sqrt(sum(1 / len(one) for one in groups)) / len(groups)
+    half = float(stdtrit(free, SHARES[1]) * error)
     return Estimate(middle, middle - half, middle + half)
+
+
+def _spread_of(groups: Sequence[Array]) -> float:
+    """The standard deviation of what differs within the groups."""
+    squares = sum(float(((one - one.mean()) ** 2).sum()) for one in groups)
+    return float(np.sqrt(squares / (sum(map(len, groups)) - len(groups))))

@@ -22,6 +22,7 @@ class Coverage(NamedTuple):
     """Intervals of many sessions of one observer, for whom the number is known."""
 
     covered: float  # share of the intervals that hold the known number
+    intervals: int  # how many there are
     bias: float  # mean of the numbers less what is known, as a share of it
     width: float  # mean of the intervals
     without: float  # share of the sessions, or of their levels, that gave no number
@@ -70,8 +71,9 @@ def _coverage(known: Array, numbers: list[list[Estimate]]) -> Coverage:
     given, one = ~np.isnan(low), np.isfinite(value)  # an interval may have no end, and then no number in it
     wide = (high - low)[np.isfinite(high - low)]
     bias = (np.sign(true) * (value - true))[one].sum() / max(np.abs(true[one]).sum(), 1e-300)
-    covered = ((low <= true) & (true <= high))[given].sum() / max(given.sum(), 1)
-    return Coverage(float(covered), float(bias), float(wide.sum() / max(wide.size, 1)), float(1 - given.mean()))
+    held, count = ((low <= true) & (true <= high))[given].sum(), int(given.sum())
+    width = float(wide.sum() / max(wide.size, 1))
+    return Coverage(float(held / max(count, 1)), count, float(bias), width, float(1 - given.mean()))
 
 
 @dataclass(frozen=True)

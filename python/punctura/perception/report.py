@@ -14,7 +14,9 @@ import pyarrow as pa
 
 from punctura.files.whole_file import write_whole
 from punctura.perception.analysis import (
+    END,
     LEVEL,
+    RATE,
     SHARES,
     Analysis,
     Answers,
@@ -42,6 +44,16 @@ STYLE = (
     "td,th{padding:0 5px;border-bottom:.5pt solid #ccc;text-align:left;font-weight:normal}tr{break-inside:avoid}"
 )
 NO_FORCE = "; no hand felt a force, because a mouse, a finger or keys moved the needle"
+OPEN_END = (
+    '"At least" and "at most": all answers of a kind were alike, so one end is open. About '
+    f"{-np.log(1 - LEVEL) / (RATE - END):.0f} times as many such trials would most likely close it, or fewer with "
+    "levels nearer to the threshold."
+)
+TELL_SHAPE = 64  # answers at a level, docs/perception.md
+SHAPES = (
+    "The function has one of three shapes, and {each} answers at a level do not tell which: thresholds of observers "
+    f"were 3 % too large with 24 answers, and 2 % with {TELL_SHAPE}."
+)
 CAPTIONS = {
     "": "Circles: the answers at a level, larger the more there are. Line and band: the function and its "
     f"{LEVEL:.0%} interval. Bar: that of the threshold.",
@@ -169,6 +181,11 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
             for level in sorted({level for each in some.values() for level in each})
         ]
         lines += _table(head, rows)
+    if any(np.isinf([*each.dprime, *each.criterion]).any() for one in detected for each in one.detection):
+        lines += [OPEN_END, ""]
+    if protocol.shape.bends and protocol.shape.one_sided and (few := min(one.trials for one in found.people)):
+        each = few // len(protocol.levels)
+        lines += [SHAPES.format(each=each), ""] * (each < TELL_SHAPE)
     caught = [one for one in found.people if one.catch_trials]
     if caught:
         what = "yes (false alarms)" if file.task == "yes_no" else "right"

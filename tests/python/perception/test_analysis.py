@@ -18,7 +18,7 @@ from punctura.perception.report import words
 from punctura.ready_protocols import protocol_files
 from scipy.optimize import minimize
 from scipy.special import ndtr, ndtri
-from scipy.stats import binom
+from scipy.stats import binom, binomtest
 
 SHARP = Observer(weber=0.06)
 FAINT = Observer(noise=0.03, criterion=0.285)
@@ -41,6 +41,7 @@ ROWS: list[Row] = [  # title, protocol, method, trials, observer
     ("`wall-thickness`", READY["wall-thickness"], "constant", 160, Observer(noise=0.03)),
     ("its levels finer", WALL_FINE, "quest", 80, Observer(noise=0.03)),
     ("`chatter`", READY["chatter"], "constant", 168, Observer(weber=0.0, noise=0.0008)),
+    ("`chatter`, more answers", READY["chatter"], "constant", 448, Observer(weber=0.0, noise=0.0008)),
     ("`shaft-masking`", READY["shaft-masking"], "quest", 80, Observer(weber=0.0, noise=0.02)),
     ("settings", ADJUST, "adjustment", 24, Observer(weber=0.03)),
 ]
@@ -114,9 +115,33 @@ def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row
     loaded = load_protocol(written(tmp_path, text))
     protocol = with_trials(replace(loaded, file=loaded.file.model_copy(update={"method": method})), trials)
     for what, one in coverage(protocol, observer, SESSIONS, SEED, Senses(protocol, 64)).items():
-        print(f"| {title} | {method}, {trials} | {what} | {one.covered:.1%} | {one.bias:+.1%} | {one.width:.3g} "
-              f"| {one.without:.1%} |")  # fmt: skip
+        low, high = binomtest(round(one.covered * one.intervals), one.intervals).proportion_ci(method="wilson")
+        print(f"| {title} | {method}, {trials} | {what} | {one.covered:.1%} ({low:.1%} to {high:.1%}) "
+              f"| {one.bias:+.1%} | {one.width:.3g} | {one.without:.1%} |")  # fmt: skip
         assert one.covered >= 0.9
+
+
+@pytest.mark.statistics
+def test_over_its_prior_95_percent_of_the_intervals_hold_the_threshold(tmp_path: Path) -> None:
+    """Of right answers by staircase: thresholds, exponents of d', lapses and biases that scatter as the fit expects."""
+    loaded, random = load_protocol(written(tmp_path, WIDE_FINE)), np.random.default_rng(SEED)
+    protocol = with_trials(replace(loaded, file=loaded.file.model_copy(update={"method": "staircase"})), 240)
+    found = []
+    for i in range(SESSIONS):
+        place, exponent = np.exp([random.uniform(np.log(0.03), np.log(0.15)), 0.5 * random.standard_normal()])
+        lapse, bias, course, given = random.beta(1, 50), 0.7 * random.standard_normal(), Course(protocol, i), []
+        while (trial := course.next()) is not None:
+            z = ndtri(0.75) * ((trial.shown.level - 0.41) / place) ** exponent + (1 - 2 * trial.position) * bias
+            right = random.random() < lapse / 2 + (1 - lapse) * ndtr(z)
+            answer = ("first", "second")[trial.position ^ (not right)]
+            given.append(line(trial.shown.level, trial.position, answer))
+            course.add(trial, answer)
+        if one := person(protocol, "", given).threshold:
+            found.append((one.low < place < one.high, abs(np.log(exponent))))
+    held, away = np.array(found).T
+    print(f"| over the prior | {held.mean():.1%} | exponent near 1 | {held[away < 0.3].mean():.1%} "
+          f"| far from 1 | {held[away > 0.8].mean():.1%} |")  # fmt: skip
+    assert 0.92 < held.mean() < 0.98
 
 
 def test_the_just_noticeable_difference_is_that_of_the_noise(senses: dict[str, Senses]) -> None:

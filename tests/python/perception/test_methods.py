@@ -90,8 +90,15 @@ def test_an_adjustment_ends_where_both_intervals_seem_equal(load: Callable[[str]
     starts = [session[0], *(one for before, one in pairwise(session) if before.answer == "equal")]
     assert sorted(one.level for one in starts) == [0.14] * 6 + [0.68] * 6
     assert found.threshold.low < 0.41 < found.threshold.high and found.threshold.value == pytest.approx(np.mean(levels))
-    assert found.jnd.value == pytest.approx(0.67449 * np.std(levels, ddof=1), rel=1e-4)
-    assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(11 / 3.81575), rel=1e-4)  # chi square, 2.5 %
+    high, low = (
+        np.array([to for one, to in zip(starts, levels, strict=True) if one.level == end]) for end in (0.68, 0.14)
+    )
+    assert high.mean() > low.mean() + 0.02  # a setting ends nearer to where it began, which is no noise
+    sd = np.sqrt((high.var(ddof=1) + low.var(ddof=1)) / 2)
+    assert found.jnd.value == pytest.approx(0.67449 * sd, rel=1e-4)
+    assert found.jnd.high / found.jnd.value == pytest.approx(np.sqrt(10 / 3.24697), rel=1e-4)  # chi square, 2.5 %
+    half = 2.228139 * sd / np.sqrt(12)  # Student's t of 10 degrees of freedom, 97.5 %
+    assert found.threshold.high - found.threshold.value == pytest.approx(half, rel=1e-5)
 
 
 @pytest.mark.parametrize(("levels", "sd"), [(np.linspace(0.28, 0.32, 9), 0.04), (np.linspace(0.0, 0.6, 11), 0.02)])

@@ -177,6 +177,7 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     assert "| O01 | 120 |" in report
     assert "| level, m | O01, trials | O01, d' | " in report and re.search(r"\n\| 0\.0027 \| 20 \| ", report)
     assert "JND" not in report and "false alarms" in report and "Bar: that" in report
+    assert "About 12 times as many such trials would most likely close it" in report
     assert "<!-- thickness of the thin membrane, mm -->" in picture
     html = (folder / "report.html").read_text()
     assert "<tr><td>O01<td>120<td>" in html and "<svg" in html and "functions.svg" not in html
@@ -193,6 +194,13 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
     assert status == 1 and "another protocol or of a changed one" in err
     with pytest.raises(SessionError, match="simulated observers, and no report may mix both"):
         agreed(load_protocol(changed), folder, "P01")  # before a person is asked to agree
+
+
+def test_a_report_says_what_so_few_answers_do_not_tell(tmp_path: Path) -> None:
+    simulation = Simulation(load_protocol("chatter"), Observer(weber=0.0, noise=0.0008))
+    simulation.run_on_disk(tmp_path, "O01", 1)
+    assert write_report(simulation.protocol, tmp_path).people[0].threshold
+    assert "24 answers at a level do not tell which" in (tmp_path / "report.md").read_text()
 
 
 def test_masking_noise_has_as_much_power_in_each_octave() -> None:
