@@ -321,24 +321,6 @@ def test_a_catch_trial_is_an_answer_at_its_level(senses: dict[str, Senses], name
             assert found.jnd.value == pytest.approx(truth, rel=0.06)
 
 
-def test_the_slope_of_ratings_and_the_exponent_of_magnitudes(tmp_path: Path) -> None:
-    """Against NumPy's straight line; numbers of a power of the level; no slope without two ratings."""
-    text = COMPARES.replace("reference = 0.41\n", "")
-    protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"rating"')))
-    x = np.tile(protocol.levels, 20)
-    y = 5 + np.arange(len(x)) % 3 + np.round(4 * (x - 0.5))
-    found = person(protocol, "", [line(level, 0, f"{n:.0f}") for level, n in zip(x, y, strict=True)])
-    (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
-    assert found.slope is not None and found.threshold is None and found.slope.value == pytest.approx(slope)
-    half = 1.980272 * np.sqrt(covariance[0, 0])  # Student's t of 118 degrees of freedom, 97.5 %
-    assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
-    same = person(protocol, "", [line(level, 0, "5") for level in x])
-    assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
-    protocol = load_protocol(written(tmp_path, text.replace('"two_intervals"', '"magnitude"')))
-    found = person(protocol, "", [line(level, 0, f"{30 * level**0.8:.6g}") for level in x])
-    assert found.slope is not None and found.slope == pytest.approx((0.8, 0.8, 0.8), rel=1e-4)
-
-
 def test_means_of_people_need_two(senses: dict[str, Senses]) -> None:
     one = Simulation(senses["compares"].protocol, SHARP, senses["compares"])
     sessions = {f"P{i}": one.run(i, i) for i in range(4)}
@@ -358,13 +340,3 @@ def test_more_trials_and_people_make_smaller_intervals(senses: dict[str, Senses]
     assert [(row.trials, row.people) for row in rows] == [(60, 2), (60, 5), (240, 2), (240, 5)]
     assert rows[0].person_width > 1.5 * rows[2].person_width
     assert rows[2].mean_width > 1.2 * rows[3].mean_width
-
-
-def test_the_order_is_that_of_the_seed(tmp_path: Path) -> None:
-    protocol = load_protocol(written(tmp_path, COMPARES))
-    assert load_protocol(written(tmp_path, COMPARES)).digest == protocol.digest
-    assert load_protocol(written(tmp_path, COMPARES.replace("seed = 3", "seed = 4"))).digest != protocol.digest
-    assert with_trials(protocol, 240).file.trials.per_level == 40
-    assert with_trials(load_protocol("wall-thickness"), 160).file.trials.catch == 40
-    quest = replace(protocol, file=protocol.file.model_copy(update={"method": "quest"}))
-    assert len(Course(with_trials(quest, 50), 0)) == 50

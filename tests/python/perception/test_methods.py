@@ -11,6 +11,7 @@ from protocols import ADJUST, COMPARES, RIGHT, YES, line, written
 from punctura.perception import Observer, Protocol, Simulation, load_protocol
 from punctura.perception.analysis import person
 from punctura.perception.course import Course, Trial, quest, staircase
+from punctura.perception.power import with_trials
 from punctura.perception.psychometric import QUEST, Grid
 from punctura.perception.report import words
 
@@ -117,3 +118,31 @@ def test_settings_that_the_levels_make_give_no_jnd(
         else:
             assert found.jnd is not None and found.jnd.high > 0.67449 * sd
             assert words(found.jnd).startswith("at most 0.0") and words(found.threshold).startswith("0.3")
+
+
+def test_the_slope_of_ratings_and_the_exponent_of_magnitudes(load: Callable[[str], Protocol]) -> None:
+    """Against NumPy's straight line; numbers of a power of the level; no slope without two ratings."""
+    text = COMPARES.replace("reference = 0.41\n", "")
+    protocol = load(text.replace('"two_intervals"', '"rating"'))
+    x = np.tile(protocol.levels, 20)
+    y = 5 + np.arange(len(x)) % 3 + np.round(4 * (x - 0.5))
+    found = person(protocol, "", [line(level, 0, f"{n:.0f}") for level, n in zip(x, y, strict=True)])
+    (slope, _), covariance = np.polyfit(x, y, 1, cov=True)
+    assert found.slope is not None and found.threshold is None and found.slope.value == pytest.approx(slope)
+    half = 1.980272 * np.sqrt(covariance[0, 0])  # Student's t of 118 degrees of freedom, 97.5 %
+    assert found.slope.high - found.slope.value == pytest.approx(half, rel=1e-5)
+    same = person(protocol, "", [line(level, 0, "5") for level in x])
+    assert same.slope is None and same.reason == "every rating was the same, so there is no slope"
+    protocol = load(text.replace('"two_intervals"', '"magnitude"'))
+    found = person(protocol, "", [line(level, 0, f"{30 * level**0.8:.6g}") for level in x])
+    assert found.slope is not None and found.slope == pytest.approx((0.8, 0.8, 0.8), rel=1e-4)
+
+
+def test_the_order_is_that_of_the_seed(load: Callable[[str], Protocol]) -> None:
+    protocol = load(COMPARES)
+    assert load(COMPARES).digest == protocol.digest
+    assert load(COMPARES.replace("seed = 3", "seed = 4")).digest != protocol.digest
+    assert with_trials(protocol, 240).file.trials.per_level == 40
+    assert with_trials(load_protocol("wall-thickness"), 160).file.trials.catch == 40
+    quest = replace(protocol, file=protocol.file.model_copy(update={"method": "quest"}))
+    assert len(Course(with_trials(quest, 50), 0)) == 50
