@@ -3,7 +3,7 @@
 import pytest
 from axe import AXE, none_found
 from person import NO_WEBGL, opened, ready, tab, view, whole_at
-from playwright.sync_api import Page, WebSocketRoute, expect
+from playwright.sync_api import Page, Route, WebSocketRoute, expect
 from studio_process import StudioProcess
 from watched_page import COUNT
 
@@ -151,6 +151,21 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(marks(page)).to_have_count(0)
     expect(sentence).to_contain_text("the needle is out")
     page.wait_for_function(f"() => ({ROWS})() < ({before} + {pushed}) / 2")  # what is left is the way out, in air
+
+
+def test_a_held_key_goes_on_moving_the_needle_while_the_bench_comes(page):
+    """After a pop the bench is loaded. Somebody who draws the needle back by then holds the key down."""
+    chunks: list[Route] = []
+    page.route("**/bench-*.js", lambda chunk: chunks.append(chunk))
+    push_to_a_pop(page)
+    page.keyboard.down("ArrowUp")  # one key-down event, as of a keyboard that repeats nothing
+    page.wait_for_timeout(500)
+    for chunk in chunks:
+        chunk.continue_()
+    expect(page.locator(".side")).to_be_attached()
+    expect(page.locator(".stage-sentence")).to_contain_text("the needle is out")
+    page.keyboard.up("ArrowUp")
+    expect(view(page)).to_be_focused()
 
 
 def test_without_webgl_the_slice_is_the_stage_and_a_drag_along_its_needle_goes_through_the_skin(browser, studio):

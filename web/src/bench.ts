@@ -32,8 +32,8 @@ export function bench(root: HTMLElement, app: App): void {
   const phases = place("phases", "Membranes", phasesPanel);
   phases.tabIndex = 0; // so that the arrow keys can scroll it
   view.after(
-    phases,
     place("force-depth", "Force against depth", forceDepthPlot),
+    phases,
     place("time-plots", "Force and depth against time", timePlots),
     place(
       "side",

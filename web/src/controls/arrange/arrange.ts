@@ -64,14 +64,19 @@ export const arrange: Panel = (root, app) => {
   keys(app);
 };
 
-/** The order of reading and of the tab key is the order on the page. The focus stays where it is. */
+/**
+ * The order of reading and of the tab key is the order on the page. The panel with the focus stays where it is, and the
+ * others go around it: the view would lose the keys that are down.
+ */
 function inOrder(root: HTMLElement, panels: readonly HTMLElement[]): void {
   const now = [...root.children].filter((child) => panels.includes(child as HTMLElement));
   if (panels.every((panel, i) => panel === now[i])) return;
-  const focus = document.activeElement;
-  const before = root.querySelector(":scope > .side");
-  for (const panel of panels) root.insertBefore(panel, before);
-  if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
+  const still = Math.max(
+    0,
+    panels.findIndex((panel) => panel.contains(document.activeElement)),
+  );
+  panels[still]!.before(...panels.slice(0, still));
+  panels[still]!.after(...panels.slice(still + 1));
 }
 
 /** Alt+P: the layout for a projector. Escape: back to all panels, then back from a pop that is shown again. */
