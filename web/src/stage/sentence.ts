@@ -7,24 +7,27 @@ import { remember, remembered } from "../state/remembered.ts";
 import { type Band, bandAt } from "../tissue/bands.ts";
 import type { Felt } from "./attempt.ts";
 
+/** What the stage says. takeOver: that another page, or none, moves the needle, so that this page may take control. */
+interface Said {
+  readonly text: string;
+  readonly takeOver: boolean;
+}
+
 /** The one sentence of the stage: what is, or what to do next, as the needle is now. */
 export class Sentence {
   private readonly progress = new Progress();
   private readonly learnt = remembered("tour") !== null; // in an earlier visit
 
-  /** Whether the last sentence was that another page, or none, moves the needle: then this page may take over. */
-  offersControl = false;
-
   constructor(private readonly app: App) {}
 
   /** now: of the needle; null if it is not known, or must not be told. */
-  words(bands: readonly Band[], now: Felt | null): string {
-    return unbroken(this.said(bands, now));
+  said(bands: readonly Band[], now: Felt | null): Said {
+    const words = this.words(bands, now);
+    return typeof words === "string" ? { text: unbroken(words), takeOver: false } : words;
   }
 
-  private said(bands: readonly Band[], now: Felt | null): string {
+  private words(bands: readonly Band[], now: Felt | null): string | Said {
     const { app, progress } = this;
-    this.offersControl = false;
     if (app.sitting.value)
       return app.connection.value.state === "open" ? app.sitting.value.sentence : "The studio is not connected.";
     const { excerpt, paused, live, title } = app.source.value;
@@ -45,11 +48,7 @@ export class Sentence {
     const watches = barred !== null && !you && app.connection.value.state === "open";
     if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
-    if (watches) {
-      const where = place(bands, now);
-      this.offersControl = where === "";
-      return where || barred;
-    }
+    if (watches) return place(bands, now) || { text: barred, takeOver: true };
     if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated, true);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }

@@ -125,8 +125,9 @@ export const stage: Panel = (root, app) => {
     }
     if (time - wordsAt < WORDS_MS) return;
     wordsAt = time;
-    write(words, sentence.words(bands, hidden ? null : now));
-    take.hidden = !sentence.offersControl;
+    const { text, takeOver } = sentence.said(bands, hidden ? null : now);
+    write(words, text);
+    take.hidden = !takeOver;
     write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
     write(name, tick === null ? "" : feltForce(scaleOf(source.value)));
     const told = built?.syringe && tick !== null && !app.blind;

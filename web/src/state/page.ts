@@ -6,14 +6,24 @@ import { Signal } from "./signal.ts";
 type Page = "stage" | "bench";
 
 const KEY = "page";
+const pageNamed = (name: unknown): Page => (name === "bench" ? "bench" : "stage");
 const visited = new WeakSet<Signal<Page>>(); // that have shown the stage
 
-/** Which of the two is shown; the browser remembers it. The style sheets read it as `data-page` of the root element. */
-export const pageOf = onePerApp(() => {
-  const page = new Signal<Page>(remembered(KEY) === "bench" ? "bench" : "stage");
+/**
+ * Which of the two is shown; the browser remembers it, and its Back returns to the one before. The style sheets read it
+ * as `data-page` of the root element.
+ */
+export const pageOf = onePerApp((app) => {
+  const page = new Signal(pageNamed(remembered(KEY)));
+  history.replaceState({ [KEY]: page.value }, "");
   page.watch((now) => {
     document.documentElement.dataset.page = now;
     if (now === "stage") visited.add(page);
+  });
+  window.addEventListener("popstate", ({ state }) => {
+    if (app.sitting.value) return; // it has no bench
+    page.value = pageNamed(state?.[KEY]);
+    remember(KEY, page.value);
   });
   return page;
 });
@@ -24,6 +34,7 @@ export function backToStage(page: Signal<Page>): void {
 }
 
 export function show(page: Signal<Page>, wanted: Page): void {
+  if (page.value !== wanted) history.pushState({ [KEY]: wanted }, "");
   page.value = wanted;
   remember(KEY, wanted);
 }
