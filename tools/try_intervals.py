@@ -17,6 +17,7 @@ sensor, s. --play: of the drive of --machine, m. --tremor: of 8 to 10 Hz, on the
 --tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
+"still": how often the result does not say that the tissue moves; "explained": how often no other law may be better.
 --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
 it is right. --auto: the number is not given for one wall, too.
@@ -58,6 +59,7 @@ AIR = 2e-3  # m, in front of the first surface
 THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
 WALK = 10.0  # s, after which --walk is reached
 SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
+WHOLE = ("still", "explained", "walls", "warned")  # rows that are of the whole result
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
@@ -96,7 +98,7 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Row:
-    """One parameter of one trace."""
+    """One parameter of one trace, or what the result says of all."""
 
     kind: str
     identifiable: bool  # says identify
@@ -224,7 +226,10 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     assert trace.time is not None
     inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
-    rows = []
+    rows = [
+        Row("still", True, "moving_tissue" not in [cause.kind for cause in found.doubts.causes], False),
+        Row("explained", True, found.doubts.explained.whole, False),
+    ]
     if chosen:
         rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
     if given.wrong:
@@ -248,7 +253,7 @@ def summary(rows: Sequence[Row]) -> list[str]:
     """A line for each parameter, and one for all; with the share's interval of 95 % (Clopper and Pearson)."""
     lines = []
     for kind in [*dict.fromkeys(row.kind for row in rows), "all"]:
-        of = [row for row in rows if row.kind == kind or (kind == "all" and row.kind not in ("walls", "warned"))]
+        of = [row for row in rows if row.kind == kind or (kind == "all" and row.kind not in WHOLE)]
         shown = [row for row in of if row.identifiable]
         held, missed = sum(row.held for row in shown), sum(row.hidden for row in shown)
         low, high = binomtest(held, len(shown)).proportion_ci(method="exact") if shown else (0, 1)

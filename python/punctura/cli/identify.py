@@ -114,7 +114,7 @@ def command(
     read, known = _trace.read_with_needle(trace, reading, needle, context)
     found = identify(read, known, count, notice, known_rig)
     typer.echo(json.dumps(found.as_dict(), indent=2) if as_json else in_words(found))  # first: a disk may be full
-    if not as_json and not found.doubts.explained.ok:
+    if not as_json and not found.doubts.explained.whole:
         from punctura.rivals.comparison import better_in_words
 
         notice("the rivals")

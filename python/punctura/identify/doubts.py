@@ -43,7 +43,7 @@ class Doubts:
         """As plain values for JSON, SI."""
         assessment = self.explained
         return {
-            "explained": assessment.ok, "left_N": assessment.left, "noise_N": assessment.noise,
+            "explained": assessment.whole, "left_N": assessment.left, "noise_N": assessment.noise,
             "noise_is_of_air": assessment.air, "runs": assessment.runs, "runs_of_noise": assessment.runs_of_noise,
             "not_explained": [
                 {"way": place.kind, "insertion": place.insertion, "shallow_m": place.shallow, "deep_m": place.deep,

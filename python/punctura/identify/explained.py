@@ -22,7 +22,8 @@ BLOCKS, SHORTEST = 150, 5  # blocks in tissue, about; samples of a block, at lea
 MEDIAN = np.pi / 2  # the variance of a median of n samples of noise, in those of their mean
 SURE = 4.0  # standard deviations of chance
 MATTERS = 0.01  # of the greatest force: less is no misfit that a reader needs to know
-CLEAR = 0.5  # of the noise from sample to sample: less does not show in the trace
+SEEN = 0.002  # of the greatest force: no sensor is better, so less tells nothing of the law
+CLEAR = 0.5  # of the noise of a block: less does not show in the trace
 NAMED = 3  # places in a sentence
 
 
@@ -73,16 +74,29 @@ class Explained:
     samples: int
     places: tuple[Place, ...]  # the largest first; empty if the trace is explained
     blocks: Blocks
+    beaten: bool  # less is left than matters, but a force that follows the depth freely is clearly better
 
     @property
     def ok(self) -> bool:
         """Whether nothing is left that is both beyond chance and large enough to matter."""
         return not self.places
 
+    @property
+    def whole(self) -> bool:
+        """Whether no law of the depth can be clearly better: the blocks are the best one for each stroke."""
+        return self.ok and not self.beaten
+
     def sentence(self) -> str:
         """What is not explained, and where; empty if the trace is explained."""
-        if self.ok:
+        if self.whole:
             return ""
+        if self.ok:
+            return (
+                f"The model does not explain all: it leaves {self.left:.2g} N beyond chance, "
+                f"{100 * self.left / self.peak:.2g} % of the greatest force, and a force that follows the depth freely "
+                "does not. Another law (punctura rivals) or an error of the rig may explain the trace better, and the "
+                "intervals may be too narrow."
+            )
         beside = f"beside a noise of {self.noise:.2g} N " + ("in air" if self.air else "from sample to sample")
         more = f"; and {len(self.places) - NAMED} smaller places" if len(self.places) > NAMED else ""
         return (
@@ -103,20 +117,22 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     calm = (trace.force - fit.misfit.of_rig(fit.parameters))[air]
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)
     peak = float(np.max(np.abs(trace.force)))
-    slow = 0.0
-    if air_noise is not None and air_noise.shows(*fit.noise.most_likely()):
-        slow = fit.noise.slow_and_white()[0]
-    blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)), slow)
+    slow, likely = fit.noise.slow_and_white()[0], fit.noise.most_likely()
+    shown = air_noise is not None and air_noise.shows(*likely)
+    allowed = air_noise is not None and air_noise.allows(*likely)
+    blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)), slow if shown else 0.0)
     signs = residuals[residuals != 0] > 0
     up, n = int(signs.sum()), max(len(signs), 1)
     squares = float(np.mean(blocks.left**2)) if len(blocks.left) else 0.0
     left = float(np.sqrt(max(squares - blocks.noise**2, 0.0)))
     sure = squares > blocks.noise**2 * (1 + SURE * np.sqrt(2 / max(len(blocks.left), 1)))
     clear = left > max(MATTERS * peak, CLEAR * blocks.noise)
+    places = tuple(_places(trace, segments, blocks, peak)) if sure and clear else ()
+    least = max(SEEN * peak, CLEAR * blocks.noise, slow if allowed else 0.0)
     return Explained(
         noise, len(calm) >= SHORTEST, left, peak, 1 + int(np.sum(signs[1:] != signs[:-1])),
         1 + 2 * up * (n - up) / n, effective_samples(residuals, len(fit.u)), len(trace),
-        tuple(_places(trace, segments, blocks, peak)) if sure and clear else (), blocks,
+        places, blocks, not places and sure and left > least,
     )  # fmt: skip
 
 

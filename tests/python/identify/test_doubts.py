@@ -95,6 +95,14 @@ def test_what_k06_does_not_know_is_named_with_an_experiment(made, kind, words):
     assert uneven == {kind} & {"barbs", "asymmetric_way_out"}  # a wall that resists on the way in alone is none
 
 
+def test_a_trace_that_another_law_may_explain_better_is_not_called_explained():
+    """A sensor shows 4 % too little of the greatest force: the model leaves less than 1 % of it."""
+    verdict = doubted(changed(lambda depth, force, inward: force * (1 - 0.05 * force)))
+    assert verdict.explained.ok and not verdict.explained.places and not verdict.as_dict()["explained"]
+    assert verdict.sentences[0].startswith("The model does not explain all: it leaves 0.00")
+    assert "intervals may be too narrow" in verdict.sentences[0]
+
+
 def test_a_sensor_that_is_quieter_than_its_steps_leaves_no_misfit():
     made = trace(noise=0.015)
     coarse = doubted(replace(made, force=np.round(made.force / 0.15) * 0.15))
