@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from punctura.trace.air import baseline, smooth
 from punctura.trace.segment import Segments
-from punctura.trace.steps import OFF, equal_runs, rounding
+from punctura.trace.steps import DIGITS, OFF, equal_runs, rounding
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
 
@@ -21,6 +21,7 @@ Array = NDArray[Any]
 FEW = 0.05  # of the samples: so many spikes may be left out
 PULL, FINE = 3.0, 0.03  # times the noise, and of the range of the force: the air is so far above the floor
 AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
+REPEATED, STILL, UNLIKE = 0.1, 0.15, 0.2  # of the samples, that repeat the one before; in one run; of changes
 NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
 ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
 ROUGH, TOO_ROUGH = 0.05, 1 / 3  # of the range of the force, is a step that is named; one that shows no rise
@@ -121,22 +122,47 @@ def smeared(*air: Array) -> int:
 
     air: before the tissue and behind it. Slow noise of a sensor is alike in neighbouring samples, too, but its changes
     from sample to sample are not. A filter makes changes that are like the next ones, or, a mean of k samples, the
-    reverse of those k samples before.
+    reverse of those k samples before. A median, and a reading that is held, repeat it.
     """
-    parts = [_without_bend(change) for one in air if len(change := np.diff(one)) >= SHORTEST]
+    air = tuple(one for one in air if len(one) > SHORTEST)
+    parts = [_without_bend(np.diff(one)) for one in air]
     count = sum(map(len, parts))
     if count < AIR - 1:
         return 0
     most = min(min(map(len, parts)) // 2, count // 6)
-    alike = np.sum([np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts], axis=0)
+    alike = _alike(parts, most)
     if not alike[0] > 0:
         return 0
-    alike = alike / alike[0]
     chance, width = CHANCE / np.sqrt(count), int(np.argmin(alike))
     hum = float(alike[int(np.argmax(alike <= 0)) :].max()) > HUM or alike[width] < -ALIKE
     reverse = alike[width] < -max(REVERSE, chance) and alike[1] > -NEXT
     smooth = alike[1] > max(NEXT, chance) or reverse
-    return width if width > 1 and smooth and not hum else 0
+    if width > 1 and smooth and not hum:
+        return width
+    if not _repeated(np.concatenate(air)):
+        return 0
+    gone = _alike([_without_bend(one) for one in air], most) <= 0
+    return int(np.argmax(gone)) if gone.any() else most
+
+
+def _alike(parts: Sequence[Array], most: int) -> Array:
+    """The correlation of values with those up to `most` samples behind, over all parts; the first is 1, or 0."""
+    alike = np.sum([np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts], axis=0)
+    return np.asarray(alike / alike[0]) if alike[0] > 0 else alike
+
+
+def _repeated(air: Array) -> bool:
+    """Whether noise (n,) stands still from sample to sample, as a median or a hold makes it, and not its steps.
+
+    Changes by steps are alike, also beside a force of the rig that was subtracted. A force without noise stands still
+    for long.
+    """
+    lengths, changes = np.diff(equal_runs(air)), np.abs(np.diff(air))
+    moved = changes[changes > 0]
+    if len(moved) > (1 - REPEATED) * len(changes) or int(lengths.max()) > STILL * len(air):
+        return False
+    values = len(np.unique(np.round(moved / (DIGITS * float(moved.max())))))
+    return values > UNLIKE * len(moved) and rounding(air) == 0
 
 
 def _without_bend(values: Array) -> Array:
