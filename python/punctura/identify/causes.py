@@ -28,6 +28,12 @@ class Ways(NamedTuple):
     ratio: float  # out over in; K06 has 1
     difference: float  # N, in less out
     growth: float  # N/m, of a force that has the same sign on both ways; 0: it is friction that differs
+    zeros: tuple[float, float]  # the ratios with the zero of each end
+
+    @property
+    def uneven(self) -> bool:
+        """Whether both ways differ, wherever the zero of the force is between those of both ends."""
+        return min(self.zeros) > 1 + UNEVEN or max(self.zeros) < 1 - UNEVEN
 
 
 def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
@@ -49,6 +55,10 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
         return None
     force = trace.force - fit.misfit.of_rig(fit.parameters)
     force = force - float(np.median(force[air]))
+    ends = ([] if segments.contact is None else [slice(segments.contact + 1)]) + (
+        [] if segments.exit is None else [slice(segments.exit, None)]
+    )
+    zeros = [float(np.median(force[one])) for one in ends] or [0.0]
     within = np.arange(len(trace))
     halves = []
     for low, high in ((begin, 0.5 * (begin + deep)), (0.5 * (begin + deep), deep)):
@@ -63,11 +73,12 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
     if abs(ratios[0] - ratios[1]) > 0.5 * max(abs(ratios[0] - 1), abs(ratios[1] - 1), UNEVEN):
         return None  # it grows with the depth, as where the next wall resists on the way in
     going_in, coming_out = np.mean(halves, axis=0)
+    least, most = ((coming_out + zero) / max(going_in - zero, 1e-300) for zero in (min(zeros), max(zeros)))
     (same, more), (friction, other) = (0.5 * np.array([a - sign * b for a, b in halves]) for sign in (1, -1))
     rise = more - same
     grows = rise * same > PROPORTIONAL * same**2 * step / shift and abs(other - friction) < 0.5 * abs(rise)
     growth = float(rise / step) if grows else 0.0
-    return Ways(float(coming_out / going_in), float(going_in - coming_out), growth)
+    return Ways(float(coming_out / going_in), float(going_in - coming_out), growth, (float(least), float(most)))
 
 
 def way_out(ratio: float, growth: float = 0.0) -> tuple[str, str]:
@@ -154,7 +165,7 @@ def causes(trace: Trace, segments: Segments, fit: Fit, assessment: Explained) ->
     ways = both_ways(trace, segments, fit)
     found = []
     for kind, text, columns in (
-        *_ways(of, None if ways is None else ways.ratio),
+        *_ways(of, ways),
         *_same(of),
         *_speeds(of),
         *_again(of),
@@ -194,14 +205,14 @@ def _left(trace: Trace, segments: Segments, fit: Fit, blocks: Blocks) -> _Left:
 Tried = tuple[str, str, tuple[Array, ...]]
 
 
-def _ways(of: _Left, measured: float | None) -> Iterator[Tried]:
+def _ways(of: _Left, measured: Ways | None) -> Iterator[Tried]:
     """Another size of the force on the way out. measured: of the shaft, see both_ways()."""
     out = of.kinds == "out"
     if out.sum() < 5 or (of.kinds == "in").sum() < 5:
         return
     column = np.where(out, of.force, 0.0)
-    ratio = 1 + of.size_of(column) if measured is None else measured
-    if abs(ratio - 1) >= UNEVEN:
+    ratio = 1 + of.size_of(column) if measured is None else measured.ratio
+    if abs(ratio - 1) >= UNEVEN if measured is None else measured.uneven:
         kind, text = way_out(ratio)
         yield kind, text, (column,)
 

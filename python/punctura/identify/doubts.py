@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from punctura.identify.air_noise import AirNoise
-from punctura.identify.causes import UNEVEN, Cause, both_ways, causes, way_out
+from punctura.identify.causes import Cause, both_ways, causes, way_out
 from punctura.identify.depth_noise import steady_noise
 from punctura.identify.explained import MATTERS, SURE, Explained, explained
 from punctura.identify.fit import Fit
 from punctura.identify.parameters import ZERO
 from punctura.identify.records import ExplainedRecord
 from punctura.trace import Segments, Trace
+from punctura.trace.ends import NO_AIR, without_zero
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
@@ -69,7 +70,7 @@ def doubts(
         found = (Cause("depth_noise", 0.0, text),)  # all else may follow from it
     if not any(one.kind in UNEQUAL for one in found):
         found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
-    in_air = _air_steps(trace) or _wall_in_air(segments, fit, assessment)
+    in_air = _air_steps(trace) or _no_air(trace) or _wall_in_air(segments, fit, assessment)
     return Doubts(assessment, (*in_air, *_walls_beyond(trace, fit), *found))
 
 
@@ -97,6 +98,18 @@ def _air_steps(trace: Trace) -> tuple[Cause, ...]:
     return (Cause("air_steps", 0.0, text),)
 
 
+def _no_air(trace: Trace) -> tuple[Cause, ...]:
+    """Friction at both ends: what is in front of the first contact is not known."""
+    if not without_zero(trace):
+        return ()
+    text = (
+        "The zero of the force is not known: at both ends of the trace there may be friction (see the finding). "
+        "Offset, friction of the slide and walls in front of the first contact may stand for it, and their intervals "
+        "do not hold; the others hold if this friction is alike on both ways. To tell: begin and end in air, at rest"
+    )
+    return (Cause(NO_AIR, 0.0, text),)
+
+
 def _wall_in_air(segments: Segments, fit: Fit, assessment: Explained) -> tuple[Cause, ...]:
     """A wall that the model has where the trace is in air: there, only the zero of the sensor and the rig change it."""
     tissue = fit.misfit.forces(fit.parameters.with_values(dict.fromkeys(ZERO, 0.0)))
@@ -122,7 +135,7 @@ def _asymmetry(
 ) -> tuple[Cause, ...]:
     """What the two ways themselves show: the model may have explained it by a wall or a tail that is not there."""
     ways = both_ways(trace, segments, fit)
-    if ways is None or abs(ways.ratio - 1) < UNEVEN or (ways.ratio < 1 and WEAKER & set(extensions)):
+    if ways is None or not ways.uneven or (ways.ratio < 1 and WEAKER & set(extensions)):
         return ()
     slow = fit.noise.slow_and_white()[0] if assessment.ok else 0.0
     if abs(ways.difference) < SURE * max(slow, assessment.blocks.noise):

@@ -13,6 +13,7 @@ from punctura.identify.fit import Fit
 from punctura.identify.growing_noise import grown
 from punctura.identify.noise import effective_samples
 from punctura.trace import Segments, Trace
+from punctura.trace.ends import without_zero
 from punctura.trace.steps import rounding
 from punctura.trace.turns import noise_of
 
@@ -115,6 +116,9 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     residuals = (trace.force - fit.misfit.forces(fit.parameters)) / grown(trace, segments, fit)
     air = in_air(trace, segments, fit)
     calm = (trace.force - fit.misfit.of_rig(fit.parameters))[air]
+    if without_zero(trace):  # each end has a level of its own
+        parts = np.split(calm, np.flatnonzero(np.diff(np.flatnonzero(air)) > 1) + 1)
+        calm = np.concatenate([part - np.median(part) for part in parts if len(part)] or [calm])
     noise = float(np.std(calm)) if len(calm) >= SHORTEST else noise_of(trace.force)
     peak = float(np.max(np.abs(trace.force)))
     slow, likely = fit.noise.slow_and_white()[0], fit.noise.most_likely()
@@ -140,8 +144,6 @@ def in_air(trace: Trace, segments: Segments, fit: Fit) -> NDArray[np.bool_]:
     """The samples in air, well away from the tissue (n,): before the contact, and behind the last way out."""
     air = np.zeros(len(trace), bool)
     surface = _surface(trace, segments, fit)
-    if surface <= trace.depth[0]:
-        return air
     outside = trace.depth < surface
     air[: int(0.8 * np.argmin(outside))] = True
     last = len(trace) - int(np.argmin(outside[::-1]))  # the first sample of the air at the end
@@ -153,10 +155,11 @@ def in_air(trace: Trace, segments: Segments, fit: Fit) -> NDArray[np.bool_]:
 def _surface(trace: Trace, segments: Segments, fit: Fit) -> float:
     """Where the tissue begins, m: by the trace or by the model, whichever is shallower; a bad fit is far outside."""
     model = float(fit.parameters.membranes[:, 0].min())
-    if segments.contact is None:
+    known = segments.exit if segments.contact is None else segments.contact
+    if known is None:
         return model
-    seen = float(trace.depth[segments.contact])
-    return min(model, seen) if model > trace.depth[0] else seen
+    seen, shallowest = float(trace.depth[known]), float(trace.depth[0 if known == segments.contact else -1])
+    return min(model, seen) if model > shallowest else seen
 
 
 def _blocks(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import above_air, baseline, slope
+from punctura.trace.ends import NO_AIR, NOISES, SMALL, rubbed
 from punctura.trace.rig_force import without_rig_force
 from punctura.trace.samples import (
     coarse_force,
@@ -31,8 +32,6 @@ _DEPTHS = (1e-5, 0.5)  # m, range of the depth
 _FORCES = (2e-5, 1000.0)  # N, greatest force
 _FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
 _BACK, _JUMP = 0.5, 20.0  # of the range of the depth, and times the usual step: no needle goes back like that
-_ALIKE = 0.1  # of a change of the zero: nearer to 0 is its middle where friction is on both ways
-_SMALL = 0.03  # of the greatest force: a smaller offset or drift does not matter
 
 
 def examine(trace: Trace) -> Trace:
@@ -61,24 +60,27 @@ def examine(trace: Trace) -> Trace:
         found.append(
             Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
         )
-    air, where, zero = np.empty(0), "before contact", 0.0
-    if going_in is not None and segments.contact is not None and segments.contact >= going_in.start:
+    air, where = np.empty(0), "before contact"
+    ends = rubbed(trace, segments.contact, segments.exit)
+    if ends is not None:
+        trace, told = _without_middle(trace, *ends)
+        found.append(told)
+    elif going_in is not None and segments.contact is not None and segments.contact >= going_in.start:
         air = trace.force[going_in.start : segments.contact + 1]
     elif segments.exit is not None:
         air, where = trace.force[segments.exit :], "after the needle has left the tissue"
     if len(air):
         level, height = float(np.median(air)), float(np.max(np.abs(trace.force - np.median(air))))
-        if abs(level) > max(_SMALL * height, 3 * noise_of(trace.force)):
-            zero = level
-            trace = replace(trace, force=trace.force - zero)
+        if abs(level) > max(SMALL * height, 3 * noise_of(trace.force)):
+            trace = replace(trace, force=trace.force - level)
             segments = segment(trace)
-            found.append(Finding("offset", f"the force is {zero:.3g} N {where}; this is subtracted", True))
+            found.append(Finding("offset", f"the force is {level:.3g} N {where}; this is subtracted", True))
     found += [
         *_stacked(trace),
         *_units(trace),
         *gaps(trace),
         *smoothed(*segments.air(trace.force)),
-        *_drift(trace, segments, zero),
+        *(_drift(trace, segments) if ends is None else ()),
     ]
     found += [*_depth_axis(trace, segments), *_missing(trace, segments)]
     trace, floor = without_floor(trace, segments)
@@ -102,7 +104,7 @@ def _only_withdrawn(force: Array) -> bool:
     begin, soon, end = (baseline(part) for part in (force, force[len(force) // 4 :], force[::-1]))
     height = float(np.max(np.abs(force)))
     let_go = abs(begin) > 0.5 * height and abs(soon - begin) > 0.5 * abs(end - begin) > 4 * noise_of(force)
-    return let_go or abs(end) < max(_SMALL * height, 2 * noise_of(force)) < 0.3 * abs(begin)
+    return let_go or abs(end) < max(SMALL * height, 2 * noise_of(force)) < 0.3 * abs(begin)
 
 
 def _inward(trace: Trace, segments: Segments, touching: Stroke) -> NDArray[np.int64]:
@@ -157,30 +159,38 @@ def _stacked(trace: Trace) -> Iterator[Finding]:
         yield Finding("stacked", f"{text}, {advice}", severe=True)
 
 
-def _drift(trace: Trace, segments: Segments, zero: float) -> Iterator[Finding]:
-    """A zero that is not the same at both ends. zero: what was subtracted, N."""
+def _without_middle(trace: Trace, begin: float, end: float) -> tuple[Trace, Finding]:
+    """The trace whose zero is between these levels of both ends, N, and what is said of it."""
+    middle = 0.0 if end <= 0 <= begin else 0.5 * (begin + end)
+    said = f"the middle, {middle:+.3g} N, is subtracted" if middle else "nothing is subtracted"
+    text = (
+        f"the force is {begin:+.3g} N at the beginning and {end:+.3g} N at the end, and drifts at neither: friction of "
+        "tissue that the needle is in from the beginning, or of the slide, or a zero that has jumped. So no air shows "
+        f"the zero, and {said}. Begin and end in air, at rest: it tells them apart"
+    )
+    return replace(trace, force=trace.force - middle), Finding(NO_AIR, text)
+
+
+def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:
+    """A zero that is not the same at both ends."""
     if segments.contact is None:
         return
     height, noise = float(np.max(np.abs(trace.force))), noise_of(trace.force)
     before = trace.force[: segments.contact + 1]
     if segments.exit is not None:
         after = float(np.median(trace.force[segments.exit :])) - float(np.median(before))
-        if -after > max(_SMALL * height, 5 * noise) and abs(2 * zero + after) < _ALIKE * -after:
-            text = f"the force is {zero:+.3g} N at the beginning and {zero + after:+.3g} N at the end: a drift, "
-            text += "or friction of the slide or of tissue that the needle is in from the beginning"
-            yield Finding("drift", f"{text}. Begin and end in air, at rest: it tells them apart")
-        elif abs(after) > max(_SMALL * height, 5 * noise):
+        if abs(after) > max(SMALL * height, NOISES * noise):
             text = (
                 f"the force is {after:+.3g} N different after the needle has left the tissue: let the sensor warm up, "
             )
             restless = all(stroke.kind != "hold" for stroke in (segments.strokes[0], segments.strokes[-1]))
-            rubbed = f"or rest in air, which tells a drift from {-0.5 * after:.2g} N of friction of the slide"
-            yield Finding("drift", text + (rubbed if after < 0 and restless else "or fit the drift"))
+            at_rest = f"or rest in air, which tells a drift from {-0.5 * after:.2g} N of friction of the slide"
+            yield Finding("drift", text + (at_rest if after < 0 and restless else "or fit the drift"))
         return  # the zero is known at both ends
     if len(before) >= 30:
         rise, error = slope(np.linspace(-1, 1, len(before)), before)
         over_all = rise * 2 * len(trace) / len(before)
-        if abs(rise) > 6 * error and abs(over_all) > 3 * _SMALL * height:
+        if abs(rise) > 6 * error and abs(over_all) > 3 * SMALL * height:
             text = f"the force drifts before contact, by {over_all:+.3g} N if it goes on so to the end"
             yield Finding("drift", f"{text}: let the sensor warm up, or fit the drift")
 
@@ -215,8 +225,12 @@ def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
         yield Finding("no_time", text)
     if segments.contact is None:
         unknown = "" if segments.exit is not None else ", and no air shows the zero and the noise of the force"
-        text = f"the force rises from the first samples on: the depth of contact is a guess{unknown}; "
-        text += "begin before contact"
+        text = "the force rises from the first samples on"
+        air = trace.force[len(trace) if segments.exit is None else segments.exit :]
+        above = baseline(trace.force) - float(np.median(air)) if len(air) else 0.0
+        if above > SMALL * float(np.max(np.abs(trace.force))):
+            text = f"the force begins {above:.3g} N above that in air behind the way out, as where a needle presses"
+        text += f": the depth of contact is a guess{unknown}; begin before contact"
         yield Finding("no_contact", text)
     if not any(stroke.kind == "out" for stroke in segments.strokes):
         text = "friction and grip cannot be told apart; record the withdrawal, too"

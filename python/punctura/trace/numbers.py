@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from punctura.trace.air import FEWEST, contact_sample, spread
+from punctura.trace.ends import without_zero
 from punctura.trace.segment import Pop, segment
 from punctura.trace.trace import Trace, TraceError
 from punctura.trace.turns import noise_of
@@ -57,7 +58,7 @@ def numbers_of(trace: Trace, angle: float = 0.0) -> tuple[InsertionNumbers, ...]
     segments = segment(trace)
     contact = segments.contact
     before = trace.force[: 0 if contact is None else contact // 2 + 1]  # a soft layer may begin before the contact
-    zero = float(np.median(before)) if len(before) else 0.0
+    zero = float(np.median(before)) if len(before) and not without_zero(trace) else 0.0
     level = replace(trace, force=trace.force - zero)
     segments = segment(level)
     after = trace.force[len(trace) if segments.exit is None else segments.exit :]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import contact_sample, exit_sample, leaves_air
+from punctura.trace.ends import begins_in_tissue, fallen
 from punctura.trace.trace import Trace
 from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 
@@ -81,6 +82,9 @@ def segment(trace: Trace) -> Segments:
     out = exit_sample(trace.depth, trace.force) if first and moving[-1].kind == "out" else None
     after = None if out is None else trace.force[out:]
     contact = contact_sample(trace.depth[: first.end], trace.force[: first.end], after) if first else None
+    if contact is not None and out is not None and fallen(trace, contact, out) is not None and first:
+        in_tissue = begins_in_tissue(trace, contact, out)
+        contact = None if in_tissue else contact_sample(trace.depth[: first.end], trace.force[: first.end])
     pops = [pop for pop in _pops(trace, strokes) if contact is None or pop.start > contact]
     return Segments(contact, tuple(pops), tuple(strokes), out)
 

@@ -235,6 +235,6 @@ def test_a_needle_that_begins_in_tissue_keeps_the_sign_of_its_force():
     begun = examine(Trace(depth, force, np.arange(len(depth)) / 200))
     found = {finding.kind: finding.text for finding in begun.findings}
     assert "reversed_sign" not in found
-    assert "tissue that the needle is in from the beginning" in found["drift"] and "warm up" not in found["drift"]
+    assert "tissue that the needle is in from the beginning" in found["no_air"] and "drift" not in found
     turned = examine(Trace(depth, -force, np.arange(len(depth)) / 200))
     assert "reversed_sign" in {finding.kind for finding in turned.findings}
