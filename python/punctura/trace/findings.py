@@ -48,18 +48,11 @@ def examine(trace: Trace) -> Trace:
             return replace(trace, findings=(*trace.findings, *found, _NO_INSERTION))
         trace = replace(trace, depth=-trace.depth)
         found.append(Finding("reversed_depth", "the depth falls while the needle goes in; its sign is turned", True))
+    trace, turned = _with_sign(trace)
     trace, of_rig = without_rig_force(trace)
-    found += of_rig
+    found += [*turned, *of_rig]
     segments = segment(trace)
     going_in = next((stroke for stroke in segments.strokes if stroke.kind == "in"), None)
-    touching = way_to_tissue(trace, segments.strokes)
-    if going_in is not None and touching is not None and _pushed(trace.force[_inward(trace, segments, touching)]):
-        friction, cable = trace.rig_sizes
-        trace = replace(trace, force=-trace.force, rig_sizes=(-friction, -cable))
-        segments = segment(trace)
-        found.append(
-            Finding("reversed_sign", "the force is negative while the needle goes in; its sign is turned", True)
-        )
     air, where = np.empty(0), "before contact"
     ends = rubbed(trace, segments.contact, segments.exit)
     if ends is not None:
@@ -105,6 +98,16 @@ def _only_withdrawn(force: Array) -> bool:
     height = float(np.max(np.abs(force)))
     let_go = abs(begin) > 0.5 * height and abs(soon - begin) > 0.5 * abs(end - begin) > 4 * noise_of(force)
     return let_go or abs(end) < max(SMALL * height, 2 * noise_of(force)) < 0.3 * abs(begin)
+
+
+def _with_sign(trace: Trace) -> tuple[Trace, list[Finding]]:
+    """The trace whose force is positive while the needle goes in, and what is said of it."""
+    segments = segment(trace)
+    touching = way_to_tissue(trace, segments.strokes)
+    if touching is None or not _pushed(trace.force[_inward(trace, segments, touching)]):
+        return trace, []
+    text = "the force is negative while the needle goes in; its sign is turned"
+    return replace(trace, force=-trace.force), [Finding("reversed_sign", text, True)]
 
 
 def _inward(trace: Trace, segments: Segments, touching: Stroke) -> NDArray[np.int64]:

@@ -151,8 +151,9 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
 
 
 def _unexplained(step: float) -> Finding:
+    how = "as friction of the slide makes it" if step > 0 else "against the motion, as no friction does"
     text = (
-        f"the force in air steps by {step:+.2g} N where the needle begins to move, as friction of the slide makes it, "
+        f"the force in air steps by {step:+.2g} N where the needle begins to move, {how}, "
         "and neither friction that is alike on both ways nor a cable explains the air; nothing is subtracted, so the "
         "model may have walls that are not there. To tell: move the needle over the same depths without tissue"
     )
@@ -277,7 +278,8 @@ def _solved(
 ) -> _Found | None:
     """The sizes of the columns (n, m) that are told and clearly there, beside columns (n, k) of their own and a drift.
 
-    longest: s, over which the drift is not even. None if more than noise is left at these rows.
+    The last column is the cable's, the others are friction. longest: s, over which the drift is not even. None if more
+    than noise is left at these rows.
     """
     kept = list(told)
     drift = [] if trace.time is None else [trace.time[rows] - trace.time[0]]
@@ -289,6 +291,10 @@ def _solved(
         noise = _noise(trace, left)
         if noise is None:
             return None
+        against = [one for one, size in zip(kept, found, strict=False) if one < columns.shape[1] - 1 and size < 0]
+        if against:  # the motion, so it is no friction
+            kept.remove(against[0])
+            continue
         error = noise * np.sqrt(np.diag(np.linalg.pinv((known / scale).T @ (known / scale))))
         if drift:  # a sensor that drifts in air does not do so evenly
             error[: len(kept)] += SLOW * abs(found[-1] / scale[-1]) * longest

@@ -16,13 +16,13 @@ TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.p
 NOISE = 8e-3
 
 
-def rested(of_rig):
+def rested(of_rig, sign=1):
     """A trace that rests in air at both ends; of_rig: the force that the rig adds, by depth (m) and speed (m/s)."""
     depth = np.pad(motion(deepest=9e-3, speed=3e-3)[1] + 1e-3, 100, "edge")
     speed = np.gradient(depth) * RATE
     noise = NOISE * np.random.default_rng(3).normal(size=len(depth))
     force = force_of(depth, surface=4e-3) + of_rig(depth, speed) + noise
-    return examine(Trace(depth, force, np.arange(len(depth)) / RATE))
+    return examine(Trace(depth, sign * force, np.arange(len(depth)) / RATE))
 
 
 def kinds(trace):
@@ -102,6 +102,22 @@ def test_a_step_in_air_that_no_friction_explains_is_said_and_the_intervals_do_no
     found = identify(trace, NEEDLE, membranes=1)
     assert any("The intervals do not hold" in str(cause) for cause in found.doubts.causes)
     assert not any("warm up" in text for text in found.verdicts)
+
+
+@pytest.mark.parametrize("over", [None, 2e-5])
+def test_the_sign_is_turned_before_friction_is_looked_for(over):
+    def of_rig(depth, speed):
+        return 0.08 * (slid(depth, over, 0.0) if over else np.tanh(speed / 2e-4))
+
+    right = rested(of_rig)
+    wrong = rested(of_rig, sign=-1)
+    assert kinds(wrong) == ["reversed_sign", *kinds(right)] and kinds(right) == ["slide_friction"]
+    assert wrong.rig_sizes == right.rig_sizes and np.array_equal(wrong.force, right.force)
+
+
+def test_a_force_against_the_motion_in_air_is_no_friction():
+    for of_rig in (lambda depth, speed: -0.08 * np.tanh(speed / 2e-4), lambda depth, speed: -0.08 * slid(depth, 2e-5, 0.0)):
+        assert "slide_friction" not in kinds(rested(of_rig))
 
 
 def test_a_trace_without_such_a_force_has_none():
