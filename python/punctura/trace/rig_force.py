@@ -8,12 +8,12 @@ between them is neither.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import smooth
-from punctura.trace.segment import segment
+from punctura.trace.slide import Slide, ending, slide_of
 from punctura.trace.steps import rounding
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -29,69 +29,10 @@ SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
 WAYS = (0.0, *np.geomspace(2e-6, 3e-4, 16))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
 FINER = 6  # between two of them
-NOISES = 6.0  # of the depth: so far it must go back to turn
 QUICK = 0.3  # of a friction: two samples between which it rises by more tell only when the slide began to move
 BEGIN, LEVEL = 0.08, 0.4  # of the way in, where friction rises and stays; of its step, that is no longer one
 RESTS, SLOWLY = 3, 3.0  # changes in both rests, and times the greatest of them: more is no slow noise
 ITSELF = 1.15  # times the friction that a slide keeps from before: it is no more than itself
-
-
-def _ending(trace: Trace) -> tuple[Array, Array]:
-    """What friction of 1 N that ends in a rest adds to the force (n, 1), or each way by itself (n, 2).
-
-    It is a mean of three samples, because no stroke is known better; at both ends of a rest, the drive moves or brakes.
-    """
-    found = np.zeros(len(trace))
-    for stroke in segment(trace).strokes:
-        if stroke.kind != "hold":
-            found[max(stroke.start - 1, 0) : stroke.end + 1] = 1.0 if stroke.kind == "in" else -1.0
-    each = np.column_stack((smooth(np.maximum(found, 0.0), 3), smooth(np.minimum(found, 0.0), 3)))
-    return smooth(found, 3)[:, None], each
-
-
-@dataclass(frozen=True)
-class _Slide:
-    """How a slide moves. Noise of the depth is no motion."""
-
-    way: Array  # (n,) m, how far it went in all, from the first sample on
-    turns: NDArray[np.int64]  # (t,) the first sample of each motion in one direction
-    signs: Array  # (t,) 1: inwards
-
-    def kept(self, over: float) -> tuple[Array, Array]:
-        """Friction that a rest keeps and that rises over so many m, in parts of itself (n,): from 0 on, and
-        what is left of the friction before the first sample.
-        """
-        if over == 0:
-            return self._kept_at_once()
-        left = np.exp(-self.way / over)
-        found, last = np.zeros(len(self.way)), 0.0
-        for start, end, sign in zip(self.turns, [*self.turns[1:], len(self.way)], self.signs, strict=True):
-            before = max(int(start) - 1, 0)
-            found[start:end] = sign + (last - sign) * np.exp((self.way[before] - self.way[start:end]) / over)
-            last = found[end - 1]
-        return found, left
-
-    def _kept_at_once(self) -> tuple[Array, Array]:
-        found = np.zeros(len(self.way))
-        for start, sign in zip(self.turns, self.signs, strict=True):
-            found[start:] = sign
-        return found, (self.way == 0).astype(float)
-
-
-def _slide(trace: Trace) -> _Slide:
-    play = NOISES * noise_of(trace.depth)
-    if play == 0:
-        steps = np.diff(trace.depth, prepend=trace.depth[0])
-    else:
-        at, quiet = float(trace.depth[0]), np.empty(len(trace))
-        for i, depth in enumerate(trace.depth.tolist()):
-            at = min(max(at, depth - play / 2), depth + play / 2)
-            quiet[i] = at
-        steps = np.diff(quiet, prepend=quiet[0])
-    moved = np.flatnonzero(steps)
-    signs = np.sign(steps[moved])
-    first = np.flatnonzero(np.diff(signs, prepend=0.0)) if len(moved) else np.empty(0, np.int64)
-    return _Slide(np.cumsum(np.abs(steps)), moved[first], signs[first])
 
 
 def shapes(trace: Trace) -> Array:
@@ -106,21 +47,24 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     """
     begin = float(trace.depth[0])
     way = float(np.ptp(trace.depth[: int(np.argmax(trace.depth)) + 1]))
-    cable, frictions, slide = trace.depth - begin, _ending(trace), _slide(trace)
-    step = _step(trace, slide, way)
-    unexplained = [_unexplained(step)] if step and _stands_out(trace, slide, way) else []
+    cable, frictions, slide = trace.depth - begin, ending(trace), slide_of(trace)
+    beginning = _beginning(trace, slide, way)
+    step = _step(trace, *beginning)
+    unexplained = [_unexplained(step)] if step and _stands_out(trace, slide, *beginning) else []
+    keeping = _Keeping(trace, slide)
     best: list[tuple[Array, _Found, bool]] = []  # friction of 1 N, the sizes, and whether a rest keeps it
     for part in PARTS:
         deep = begin + part * way
         tried = ((friction, _resting(trace, np.column_stack((friction, cable)), deep)) for friction in frictions)
         best = [(friction, found, False) for friction, found in tried if found is not None][:1]
-        if step and (stays := _kept(trace, slide, deep)) is not None:
+        if step and (stays := keeping.found(deep)) is not None:
             best.append((*stays, True))
         if best:
             break
     if not best:
         return trace, unexplained
-    friction, chosen, kept = min(best, key=lambda one: one[1].left)
+    same = np.isfinite([one.left for _, one, _ in best]).all(axis=0)
+    friction, chosen, kept = min(best, key=lambda one: _rms(one[1].left[same]))
     sizes = chosen.sizes
     least = MATTERS * float(np.ptp(trace.force))
     rubbed = friction @ sizes[:-1]
@@ -160,9 +104,8 @@ def _unexplained(step: float) -> Finding:
     return Finding("air_steps", text)
 
 
-def _step(trace: Trace, slide: _Slide, way: float) -> float:
+def _step(trace: Trace, rest: Array, soon: Array, late: Array) -> float:
     """By how much the force steps where the needle begins to move, N; 0 if it does not, or rises on with the depth."""
-    rest, soon, late = _beginning(trace, slide, way)
     if len(rest) < BLOCK or min(len(soon), len(late)) < 3:
         return 0.0
     first, last = float(np.mean(soon) - np.mean(rest)), float(np.mean(late) - np.mean(soon))
@@ -175,7 +118,7 @@ def _step(trace: Trace, slide: _Slide, way: float) -> float:
     return step if flat and abs(step) > max(sure, 2 * MATTERS * float(np.ptp(trace.force))) else 0.0
 
 
-def _beginning(trace: Trace, slide: _Slide, way: float) -> tuple[Array, Array, Array]:
+def _beginning(trace: Trace, slide: Slide, way: float) -> tuple[Array, Array, Array]:
     """The force in the rest before the first motion, soon after it, and a little later, N."""
     start = int(slide.turns[0]) if len(slide.turns) else 0
     gone = slide.way[start:]
@@ -185,9 +128,8 @@ def _beginning(trace: Trace, slide: _Slide, way: float) -> tuple[Array, Array, A
     return trace.force[: max(start - 1, 0)], trace.force[quarter:middle], trace.force[middle:end]
 
 
-def _stands_out(trace: Trace, slide: _Slide, way: float) -> bool:
+def _stands_out(trace: Trace, slide: Slide, rest: Array, soon: Array, late: Array) -> bool:
     """Whether the step at the beginning is greater than what slow noise makes in both rests, over the same time."""
-    rest, soon, late = _beginning(trace, slide, way)
     after = trace.force[int(np.argmax(slide.way == slide.way[-1])) + 1 :]
     width = max((len(soon) + len(late)) // 2, 3)
     means = [one[: len(one) // width * width].reshape(-1, width).mean(axis=1) for one in (rest, after)]
@@ -198,11 +140,14 @@ def _stands_out(trace: Trace, slide: _Slide, way: float) -> bool:
 
 @dataclass(frozen=True)
 class _Found:
-    """What stands in air: the sizes of RIG_FORCES (2,), those of the other columns, and what is left, N, rms."""
+    """What stands in air: the sizes of RIG_FORCES (2,), those of the other columns, and what is left (n,), N.
+
+    NaN is left where a sample does not count.
+    """
 
     sizes: Array
     others: Array
-    left: float
+    left: Array
 
 
 def _ends(trace: Trace, deep: float) -> list[slice]:
@@ -236,41 +181,55 @@ def _resting(trace: Trace, columns: Array, deep: float) -> _Found | None:
     return None if found is None or (several > 1 and not found.sizes[:several].all()) else found
 
 
-def _kept(trace: Trace, slide: _Slide, deep: float) -> tuple[Array, _Found] | None:
-    """As _resting(), with friction that a rest keeps, and that of 1 N: both ends have one zero.
+class _Keeping:
+    """Friction that a rest keeps. It rises over the way with which it leaves least.
 
-    It rises over the way with which it leaves least.
+    All ways are compared at the samples that tell with each of them; their shapes are the same for every part of air.
     """
-    ends = _ends(trace, deep)
-    if len(ends) < 2:
-        return None
-    ways, tried = np.array(WAYS), []
-    for _ in range(2):
-        tried = [_kept_over(trace, slide, ends, over) for over in ways]
-        at = int(np.argmin([left for _, _, left in tried]))
-        ways = np.linspace(ways[max(at - 1, 0)], ways[min(at + 1, len(ways) - 1)], 2 * FINER + 1)
-    columns, rows, _ = tried[at]
-    longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
-    told = [0, 1] if np.ptp(trace.depth[ends[1]]) > BOTH * np.ptp(trace.depth[ends[0]]) else [0]
-    found = _solved(trace, rows, columns[:, :2], columns[:, 2:4], told, longest)
-    if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
-        return None
-    return columns[:, :1] + found.others[0] / found.sizes[0] * columns[:, 2:3], found
+
+    def __init__(self, trace: Trace, slide: Slide) -> None:
+        self._trace, self._slide = trace, slide
+        self._cable, self._one = trace.depth - trace.depth[0], np.ones(len(trace))
+
+    @cached_property
+    def _shapes(self) -> list[tuple[Array, Array]]:
+        return [self._slide.kept(over) for over in WAYS]
+
+    @cached_property
+    def _calm(self) -> NDArray[np.bool_]:
+        calm = np.ones(len(self._trace), bool)
+        for shape in self._shapes:
+            calm &= sum(np.abs(np.diff(one, prepend=one[0])) for one in shape) < QUICK
+        return calm & np.roll(calm, 1) & np.roll(calm, -1)
+
+    def found(self, deep: float) -> tuple[Array, _Found] | None:
+        """As _resting(), with friction that a rest keeps, and that of 1 N: both ends have one zero."""
+        trace, ends = self._trace, _ends(self._trace, deep)
+        if len(ends) < 2:
+            return None
+        rows = np.concatenate([np.arange(end.start, end.stop)[self._calm[end]] for end in ends])
+        at = int(np.argmin([self._left(shape, rows) for shape in self._shapes]))
+        finer = np.linspace(WAYS[max(at - 1, 0)], WAYS[min(at + 1, len(WAYS) - 1)], 2 * FINER + 1)
+        friction, before = min(map(self._slide.kept, finer), key=lambda shape: self._left(shape, rows))
+        longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
+        told = [0, 1] if np.ptp(trace.depth[ends[1]]) > BOTH * np.ptp(trace.depth[ends[0]]) else [0]
+        known, own = np.column_stack((friction, self._cable)), np.column_stack((before, self._one))
+        found = _solved(trace, rows, known, own, told, longest)
+        if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
+            return None
+        return (friction + found.others[0] / found.sizes[0] * before)[:, None], found
+
+    def _left(self, shape: tuple[Array, Array], rows: NDArray[np.int64]) -> float:
+        """What friction of this shape, a cable and a drift leave there, N, rms."""
+        trace = self._trace
+        since = [] if trace.time is None else [trace.time]
+        known = np.column_stack([one[rows] for one in (*shape, self._cable, self._one, *since)])
+        scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
+        return _rms(trace.force[rows] - known / scale @ np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0])
 
 
-def _kept_over(trace: Trace, slide: _Slide, ends: list[slice], over: float) -> tuple[Array, NDArray[np.int64], float]:
-    """Friction that rises over so many m, cable, friction from before, and one (n, 4); the rows that tell them; what is
-    left there, N, rms.
-    """
-    friction, before = slide.kept(over)
-    columns = np.column_stack((friction, trace.depth - trace.depth[0], before, np.ones(len(trace))))
-    calm = np.abs(np.diff(friction, prepend=friction[0])) + np.abs(np.diff(before, prepend=before[0])) < QUICK
-    calm = np.minimum(calm, np.minimum(np.roll(calm, 1), np.roll(calm, -1)))
-    rows = np.concatenate([np.arange(end.start, end.stop)[calm[end]] for end in ends])
-    known = columns[rows] if trace.time is None else np.column_stack((columns[rows], trace.time[rows]))
-    scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
-    left = trace.force[rows] - known / scale @ np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0]
-    return columns, rows, float(np.sqrt(np.mean(left**2)))
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _solved(
@@ -302,7 +261,9 @@ def _solved(
         if sure.min() > SURE:
             sizes = np.zeros(columns.shape[1])
             sizes[kept] = (found / scale)[: len(kept)]
-            return _Found(sizes, (found / scale)[len(kept) :], float(np.sqrt(np.mean(left**2))))
+            everywhere = np.full(len(trace), np.nan)
+            everywhere[rows] = left
+            return _Found(sizes, (found / scale)[len(kept) :], everywhere)
         kept.pop(int(np.argmin(sure)))
     return None
 

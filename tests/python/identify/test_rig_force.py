@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from punctura.identify import identify
-from punctura.trace import Trace
+from punctura.trace import Trace, rig_force
 from punctura.trace.findings import examine
 from punctura.trace.rig_force import without_rig_force
+from punctura.trace.slide import Slide
 from traces import MEMBRANE, NEEDLE, RATE, force_of, motion
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
@@ -96,8 +97,13 @@ def test_friction_that_a_rest_keeps_is_subtracted_and_is_no_wall(over, at_first)
     assert found.parameters.get("membrane[0].friction") == pytest.approx(MEMBRANE.friction, rel=0.03)
 
 
+def uneven(depth, speed):
+    """Friction that no form explains, N."""
+    return (0.3 + 0.1 * np.sin(depth / 1e-4)) * np.sign(np.round(speed, 6))
+
+
 def test_a_step_in_air_that_no_friction_explains_is_said_and_the_intervals_do_not_hold():
-    trace = rested(lambda depth, speed: (0.3 + 0.1 * np.sin(depth / 1e-4)) * np.sign(np.round(speed, 6)))
+    trace = rested(uneven)
     assert "air_steps" in kinds(trace) and trace.rig_sizes == (0.0, 0.0)
     found = identify(trace, NEEDLE, membranes=1)
     assert any("The intervals do not hold" in str(cause) for cause in found.doubts.causes)
@@ -118,6 +124,18 @@ def test_the_sign_is_turned_before_friction_is_looked_for(over):
 def test_a_force_against_the_motion_in_air_is_no_friction():
     for of_rig in (lambda depth, speed: -0.08 * np.tanh(speed / 2e-4), lambda depth, speed: -0.08 * slid(depth, 2e-5, 0.0)):
         assert "slide_friction" not in kinds(rested(of_rig))
+
+
+def test_forms_of_friction_are_compared_at_the_same_samples_and_their_shapes_are_made_once(monkeypatch):
+    counts, asked = set(), []
+    rms, kept = rig_force._rms, Slide.kept
+    monkeypatch.setattr(rig_force, "_rms", lambda left: counts.add(len(left)) or rms(left))
+    monkeypatch.setattr(Slide, "kept", lambda slide, over: asked.append(over) or kept(slide, over))
+    assert kinds(rested(lambda depth, speed: 0.08 * slid(depth, 5e-5, 0.0))) == ["slide_friction"]
+    assert len(counts) == 1 and next(iter(counts)) > 100
+    asked.clear()
+    rested(uneven)
+    assert len(asked) <= len(rig_force.WAYS) + len(rig_force.PARTS) * (2 * rig_force.FINER + 1)
 
 
 def test_a_trace_without_such_a_force_has_none():
