@@ -74,7 +74,7 @@ def verdicts(
     that it is not. whitened: slow noise is part of the last fit.
     """
     unknown = _not_identifiable(estimates, trace, segments, fit) if explained else _no_bounds(estimates)
-    return (*_springs(fit), *unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
+    return (*_springs(fit), *_cable(trace), *unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
 
 
 def _springs(fit: Fit) -> Iterator[str]:
@@ -86,6 +86,16 @@ def _springs(fit: Fit) -> Iterator[str]:
             f"sensor give way, the walls share one spring, of up to {walls * spring:.3g} N/m: number, places and "
             "values of the walls are then not those of the fit. To tell: turn back between two walls and behind the "
             "last one; a shared spring unloads equally steeply."
+        )
+
+
+def _cable(trace: Trace) -> Iterator[str]:
+    """What the air does not tell of a force that grows with the depth."""
+    if any(finding.kind == "cable_stiffness" for finding in trace.findings):
+        yield (
+            "The values hold if the force that grows with the depth in air is that of a cable, and goes on so in the "
+            "tissue. A soft layer that springs back looks the same in air, and deeper in it may not go on so: then the "
+            "intervals do not hold. To tell: move over the same depths in air without tissue."
         )
 
 

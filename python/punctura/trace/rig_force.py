@@ -24,6 +24,7 @@ RIG_FORCES = ("slide_friction", "cable_stiffness")  # N, with the sign of the mo
 PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be air
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
+EACH, UNCLEAR = 3.0, 1e4  # standard errors of a cable at one end; a condition number, with which its ends are one
 MATTERS = 0.01  # of the range of the force
 SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
@@ -81,8 +82,8 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
         f"the force in air follows the direction of the motion{' and stays in a rest' * kept}, by {each}, as friction "
         f"of the slide makes it{', or tissue that the needle is in from the beginning' * kept}; this is subtracted",
         f"the force in air changes by {1e-3 * sizes[-1]:+.2g} N a mm on both ways, as a cable that pulls makes it, or "
-        "a soft layer that the needle touches from the beginning; this is subtracted, also deeper in. To tell: move "
-        "over the same depths in air without tissue",
+        "a soft layer that the needle touches from the beginning and that springs back; this is subtracted, also deeper "
+        "in. To tell: move over the same depths in air without tissue",
     )
     found = [Finding(name, text, True) for name, text, one in zip(RIG_FORCES, texts, seen, strict=True) if one]
     if not seen[0]:
@@ -258,6 +259,9 @@ def _solved(
         if drift:  # a sensor that drifts in air does not do so evenly
             error[: len(kept)] += SLOW * abs(found[-1] / scale[-1]) * longest
         sure = np.abs(found[: len(kept)]) / np.maximum(error[: len(kept)], 1e-300)
+        if sure.min() > SURE and kept[-1] == columns.shape[1] - 1 and not _at_both_ends(trace, rows, known, kept, noise):
+            kept.pop()
+            continue
         if sure.min() > SURE:
             sizes = np.zeros(columns.shape[1])
             sizes[kept] = (found / scale)[: len(kept)]
@@ -266,6 +270,24 @@ def _solved(
             return _Found(sizes, (found / scale)[len(kept) :], everywhere)
         kept.pop(int(np.argmin(sure)))
     return None
+
+
+def _at_both_ends(trace: Trace, rows: NDArray[np.int64], known: Array, kept: list[int], noise: float) -> bool:
+    """Whether each end shows the last of the kept columns, a cable, and of the same size: a layer of tissue need not.
+
+    known (m, k): the kept columns and the others at these rows; noise: of a sample, N. Also if the two ends cannot be
+    told apart, as where a drift is known only from both.
+    """
+    at, scaled = len(kept) - 1, known / np.maximum(np.abs(known).max(axis=0), 1e-300)
+    behind = np.where(np.arange(len(rows)) > int(np.argmax(np.diff(rows))), scaled[:, at], 0.0)
+    each = np.column_stack((scaled[:, at] - behind, behind, np.delete(scaled, at, axis=1)))
+    if np.linalg.cond(each) > UNCLEAR:
+        return True
+    inverse = np.linalg.inv(each.T @ each)
+    first, last = (inverse @ (each.T @ trace.force[rows]))[:2]
+    own, shared = noise * np.sqrt(np.diag(inverse)[:2]), noise * np.sqrt(inverse[0, 0] + inverse[1, 1] - 2 * inverse[0, 1])
+    there = first * last > 0 and abs(first) > EACH * own[0] and abs(last) > EACH * own[1]
+    return bool(there and abs(first - last) < EACH * shared)
 
 
 def _noise(trace: Trace, left: Array) -> float | None:

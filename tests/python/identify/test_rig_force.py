@@ -41,9 +41,10 @@ def test_a_force_of_the_rig_that_the_air_shows_is_named_and_is_no_wall(of_rig, k
     trace = rested(of_rig)
     (told,) = trace.findings
     assert told.kind == kind and told.repaired and words in told.text
-    if kind == "cable_stiffness":
-        assert "soft layer" in told.text and "in air without tissue" in told.text
     found = identify(trace, NEEDLE)
+    if kind == "cable_stiffness":
+        for text in (told.text, " ".join(found.verdicts)):
+            assert "soft layer" in text and "in air without tissue" in text
     assert len(found.parameters.membranes) == 1 and found.extensions == () and found.doubts.sentences == ()
     values = {estimate.name: estimate for estimate in found.estimates}
     whole = values[kind]  # its error reaches the intervals of all others
@@ -149,6 +150,14 @@ def test_friction_is_found_where_the_trace_ends_at_its_deepest():
     assert kinds(examine(rubbed))[0] == "slide_friction"
     pulled = replace(inward, force=inward.force + 18 * inward.depth)  # a soft layer looks the same
     assert "cable_stiffness" not in kinds(examine(pulled))
+
+
+@pytest.mark.parametrize("left", [0.0, 0.6])
+def test_a_soft_layer_that_stays_behind_on_the_way_out_is_no_cable(left):
+    def of_rig(depth, speed):
+        return np.where(np.arange(len(depth)) > np.argmax(depth), left, 1.0) * 6 * (depth - depth[0])
+
+    assert "cable_stiffness" not in kinds(rested(of_rig))
 
 
 def test_slow_noise_is_no_force_of_the_rig():
