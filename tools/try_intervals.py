@@ -2,8 +2,8 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--growing 0]
-        [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto]
-        [--workers 1] [--seed 1]
+        [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--slide 0] [--presliding 0] [--cable 0] [--examined]
+        [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
 tremor), with noise of the force sensor. --correlation: of the noise from sample to sample (AR(1)). --drift: the
@@ -14,6 +14,9 @@ whose encoder has counts. --inward: the trace ends at its greatest depth. --walk
 N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-step, --force-step: the sensors give
 multiples of these, m and N. --growing: noise beside --noise, as a share of the force. --lag, --delay: of the force
 sensor, s. --play: of the drive of --machine, m. --tremor: of 8 to 10 Hz, on the way of --machine, m.
+--slide: friction of the rig's slide, N, that a rest keeps, and that rises over --presliding, m, where it turns.
+--cable: N/m. With one of these, or --examined, the trace is examined as one from a file is, and "rig" says how often
+the forces of the rig that it is said to have are those that it has.
 --tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
@@ -49,6 +52,7 @@ from punctura.identify.start import other_grips
 from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
+from punctura.trace.findings import examine
 from scipy.signal import lfilter
 from scipy.stats import binomtest
 
@@ -59,12 +63,12 @@ AIR = 2e-3  # m, in front of the first surface
 THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
 WALK = 10.0  # s, after which --walk is reached
 SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
-WHOLE = ("still", "explained", "walls", "warned")  # rows that are of the whole result
+WHOLE = ("rig", "still", "explained", "walls", "warned")  # rows that are of the whole result
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
-    "--play": "m", "--tremor": "m", "--growing": "of the force",
+    "--play": "m", "--tremor": "m", "--slide": "N", "--presliding": "m", "--cable": "N/m", "--growing": "of the force",
     "--tolerance": "of the diameter", "--wrong": "of the diameter",
 }  # fmt: skip
 
@@ -89,6 +93,10 @@ class Conditions:
     delay: float = 0.0
     play: float = 0.0
     tremor: float = 0.0
+    slide: float = 0.0
+    presliding: float = 0.0
+    cable: float = 0.0
+    examined: bool = False
     tolerance: float = 0.0
     wrong: float = 0.0
     walls: int = 1
@@ -147,6 +155,7 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
         strokes = Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
         ticks = Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
         time, depth, force = ticks.time, AIR - np.asarray(ticks.position[:, 1]), np.asarray(ticks.force[:, 1])
+    force = force + given.slide * slid(depth, given.presliding) + given.cable * (depth - depth[0])
     force, time, depth = through_sensor(force, given)[every], time[every], depth[every]
     if given.inward:
         force, time, depth = (column[: int(np.argmax(depth)) + 1] for column in (force, time, depth))
@@ -164,6 +173,15 @@ def machine_motion(deepest: float) -> tuple[NDArray[np.float64], NDArray[np.floa
     """Time, s, and depth, m: in 2 s to the greatest depth at one speed, a rest of 0.4 s, and out."""
     time = np.arange(0, 5.0, 1 / DEVICE_HZ)
     return time, np.interp(time, [0.2, 2.2, 2.6, 4.6], [0, deepest, deepest, 0])
+
+
+def slid(depth: NDArray[np.float64], over: float) -> NDArray[np.float64]:
+    """Friction of 1 N of a slide (n,), which a rest keeps; it rises over so many m where the slide turns."""
+    found = np.zeros(len(depth))
+    for i, step in enumerate(np.diff(depth), 1):
+        left = np.exp(-abs(step) / over) if over else float(step == 0)
+        found[i] = np.sign(step) * (1 - left) + left * found[i - 1]
+    return found
 
 
 def through_sensor(force: NDArray[np.float64], given: Conditions) -> NDArray[np.float64]:
@@ -215,6 +233,10 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     trace, needle, truth = random_trace(seed, given)
     if given.early:
         trace = until_half(trace, truth, needle)
+    of_rig = {"slide_friction": given.slide, "cable_stiffness": given.cable}
+    of_rig = {name: size for name, size in of_rig.items() if size}
+    examined = given.examined or bool(of_rig)
+    trace = examine(trace) if examined else trace
     drawn = np.random.default_rng(10**6 + seed).normal()
     share = given.tolerance * drawn / 1.96 + given.wrong * np.sign(drawn)
     stated = pn.Needle(needle.diameter * (1 + share), needle.tip_angle)
@@ -230,16 +252,20 @@ def tried(seed: int, given: Conditions) -> list[Row]:
         Row("still", True, "moving_tissue" not in [cause.kind for cause in found.doubts.causes], False),
         Row("explained", True, found.doubts.explained.whole, False),
     ]
+    if examined:
+        kinds = {one.kind for one in trace.findings}
+        told = {name for name in ("slide_friction", "cable_stiffness", "air_steps") if name in kinds}
+        rows.append(Row("rig", True, told == of_rig.keys(), False))
     if chosen:
         rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
     if given.wrong:
         rows.append(Row("warned", True, any("stated needle" in verdict for verdict in found.verdicts), False))
     for estimate in found.estimates:
-        kind, value = estimate.name.rpartition(".")[2], truth.get(estimate.name)
+        kind, value = estimate.name.rpartition(".")[2], (truth | of_rig).get(estimate.name)
         if value is not None:
             low = -np.inf if estimate.low is None else estimate.low
             high = np.inf if estimate.high is None else estimate.high
-            error = errors[estimate.name] / (value if kind == "precompression" else 1)
+            error = errors.get(estimate.name, 0.0) / (value if kind == "precompression" else 1)
             hidden = kind != "surface" and bool(error > HIDDEN)
             if hidden and estimate.identifiable:
                 most = 0.97 / np.tan(needle.tip_angle) if kind == "friction" else np.inf  # K06 (7)
@@ -275,6 +301,7 @@ def main() -> None:
     parser.add_argument("--early", action="store_true", help="end half way to the pop")
     parser.add_argument("--machine", action="store_true", help="moved at one speed")
     parser.add_argument("--inward", action="store_true", help="end at the greatest depth")
+    parser.add_argument("--examined", action="store_true", help="as one from a file is")
     parser.add_argument("--walls", type=int, default=1)
     parser.add_argument("--auto", action="store_true", help="the number of walls is not given")
     parser.add_argument("--apart", type=float, default=0.5, help="tip lengths")

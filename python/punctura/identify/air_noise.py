@@ -106,11 +106,10 @@ class AirNoise:
 
 
 def seen_in_air(trace: Trace) -> tuple[str, ...]:
-    """What findings say of the rig: each model then has a drift over the time, and what is left of its forces."""
-    kinds = {finding.kind for finding in trace.findings}
-    return tuple(
-        name for name in ("drift", *RIG_FORCES) if name in kinds and (name != "drift" or trace.time is not None)
-    )
+    """What the air says of the rig: each model then has a drift over the time, and what is left of its forces."""
+    forces = [name for name, shape in zip(RIG_FORCES, shapes(trace).T, strict=True) if shape.any()]
+    drifts = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
+    return (*(("drift",) if drifts else ()), *forces)
 
 
 def _steepest(trace: Trace) -> float:

@@ -54,6 +54,8 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "play": (TURN,),
     "slack": (TURN,),
     "slide_friction": (BEFORE,),
+    "slide_friction_out": (("air behind", "end outside the tissue"),),
+    "slide_way": (("", "turn in air, slowly"),),
     "cable_stiffness": (BEFORE,),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),
 }
@@ -74,7 +76,13 @@ def verdicts(
     that it is not. whitened: slow noise is part of the last fit.
     """
     unknown = _not_identifiable(estimates, trace, segments, fit) if explained else _no_bounds(estimates)
-    return (*_springs(fit), *_cable(trace), *unknown, *_not_seen(trace, segments), *_drifting(fit, air, explained, whitened))
+    return (
+        *_springs(fit),
+        *_cable(trace),
+        *unknown,
+        *_not_seen(trace, segments),
+        *_drifting(fit, air, explained, whitened),
+    )
 
 
 def _springs(fit: Fit) -> Iterator[str]:

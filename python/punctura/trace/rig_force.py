@@ -7,12 +7,14 @@ between them is neither.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.trace import air_steps
 from punctura.trace.slide import Slide, ending, slide_of
 from punctura.trace.steps import rounding
 from punctura.trace.trace import Finding, Trace
@@ -20,7 +22,10 @@ from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
-RIG_FORCES = ("slide_friction", "cable_stiffness")  # N, with the sign of the motion; N/m, of the depth
+# N, against the motion: on both ways, or on the way in, and then on the way out; m, over which it rises where the slide
+# turns; N/m, of the depth
+RIG_FORCES = ("slide_friction", "slide_friction_out", "slide_way", "cable_stiffness")
+FOUND, SLIDE_WAY = (RIG_FORCES[0], RIG_FORCES[-1]), 2  # the findings; one that is of no force itself
 PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be air
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
@@ -28,16 +33,15 @@ EACH, UNCLEAR = 3.0, 1e4  # standard errors of a cable at one end; a condition n
 MATTERS = 0.01  # of the range of the force
 SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
-WAYS = (0.0, *np.geomspace(2e-6, 3e-4, 16))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
+WAYS = (0.0, *np.geomspace(2e-6, 1e-3, 19))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
 FINER = 6  # between two of them
+STEP = 0.02  # of such a way, for a derivative
 QUICK = 0.3  # of a friction: two samples between which it rises by more tell only when the slide began to move
-BEGIN, LEVEL = 0.08, 0.4  # of the way in, where friction rises and stays; of its step, that is no longer one
-RESTS, SLOWLY = 3, 3.0  # changes in both rests, and times the greatest of them: more is no slow noise
 ITSELF = 1.15  # times the friction that a slide keeps from before: it is no more than itself
 
 
 def shapes(trace: Trace) -> Array:
-    """What 1 N and 1 N/m of RIG_FORCES add to the force (n, 2); 0 for those that the air does not show."""
+    """What 1 N, 1 m and 1 N/m of RIG_FORCES add to the force (n, 4); 0 for those that the air does not show."""
     return np.zeros((len(trace), len(RIG_FORCES))) if trace.rig is None else trace.rig
 
 
@@ -49,99 +53,63 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     begin = float(trace.depth[0])
     way = float(np.ptp(trace.depth[: int(np.argmax(trace.depth)) + 1]))
     cable, frictions, slide = trace.depth - begin, ending(trace), slide_of(trace)
-    beginning = _beginning(trace, slide, way)
-    step = _step(trace, *beginning)
-    unexplained = [_unexplained(step)] if step and _stands_out(trace, slide, *beginning) else []
+    soon = air_steps.beginning(trace, slide, way)
+    step = air_steps.step(trace, *soon)
+    unexplained = [air_steps.unexplained(step)] if step and air_steps.stands_out(trace, slide, *soon) else []
     keeping = _Keeping(trace, slide)
-    best: list[tuple[Array, _Found, bool]] = []  # friction of 1 N, the sizes, and whether a rest keeps it
+    best: list[tuple[_Friction, _Found]] = []
     for part in PARTS:
         deep = begin + part * way
         tried = ((friction, _resting(trace, np.column_stack((friction, cable)), deep)) for friction in frictions)
-        best = [(friction, found, False) for friction, found in tried if found is not None][:1]
+        best = [(_Friction(friction), found) for friction, found in tried if found is not None][:1]
         if step and (stays := keeping.found(deep)) is not None:
-            best.append((*stays, True))
+            best.append(stays)
         if best:
             break
     if not best:
         return trace, unexplained
-    same = np.isfinite([one.left for _, one, _ in best]).all(axis=0)
-    friction, chosen, kept = min(best, key=lambda one: _rms(one[1].left[same]))
-    sizes = chosen.sizes
+    friction, chosen = best[_least([one for _, one in best])]
+    sizes, kept, ways = chosen.sizes, friction.way is not None, friction.columns.shape[1]
     least = MATTERS * float(np.ptp(trace.force))
-    rubbed = friction @ sizes[:-1]
-    size = float(np.max(np.abs(sizes[:-1])))
-    seen = np.array([size > least, abs(sizes[-1]) * way > least])
-    each = (
-        f"{size:.2g} N each way"
-        if friction.shape[1] == 1
-        else " and ".join(
-            f"{abs(one):.2g} N on the way {name}" for one, name in zip(sizes, ("in", "out"), strict=False)
-        )
-    )
+    seen = float(np.max(np.abs(sizes[:-1]))) > least, abs(float(sizes[-1])) * way > least
+    each = " and ".join(f"{size:.2g} N on the way {name}" for size, name in zip(sizes, ("in", "out"), strict=False))
+    each = f"{sizes[0]:.2g} N each way" if ways == 1 else each
     texts = (
         f"the force in air follows the direction of the motion{' and stays in a rest' * kept}, by {each}, as friction "
         f"of the slide makes it{', or tissue that the needle is in from the beginning' * kept}; this is subtracted",
         f"the force in air changes by {1e-3 * sizes[-1]:+.2g} N a mm on both ways, as a cable that pulls makes it, or "
-        "a soft layer that the needle touches from the beginning and that springs back; this is subtracted, also deeper "
-        "in. To tell: move over the same depths in air without tissue",
+        "a soft layer that the needle touches from the beginning and that springs back; this is subtracted, also "
+        "deeper in. To tell: move over the same depths in air without tissue",
     )
-    found = [Finding(name, text, True) for name, text, one in zip(RIG_FORCES, texts, seen, strict=True) if one]
+    found = [Finding(name, text, True) for name, text, one in zip(FOUND, texts, seen, strict=True) if one]
     if not seen[0]:
         found += unexplained
-    if not seen.any():
+    if not any(seen):
         return trace, found
-    rig = np.column_stack((rubbed / max(size, 1e-300), cable)) * seen
-    given = (size * float(seen[0]), float(sizes[-1] * seen[1]))
-    return replace(trace, force=trace.force - rig @ given, rig=rig, rig_sizes=given), found
+    rig, given = np.zeros((len(trace), len(RIG_FORCES))), np.zeros(len(RIG_FORCES))
+    if seen[0]:
+        rig[:, :ways], given[:ways] = friction.columns, sizes[:-1]
+        by_way = sizes[0] * friction.by_way
+        if friction.way and np.max(np.abs(by_way)) * friction.way > noise_of(trace.force):  # else nothing tells it
+            rig[:, SLIDE_WAY], given[SLIDE_WAY] = by_way, friction.way
+    if seen[1]:
+        rig[:, -1], given[-1] = cable, sizes[-1]
+    force = trace.force - np.delete(rig, SLIDE_WAY, axis=1) @ np.delete(given, SLIDE_WAY)
+    return replace(trace, force=force, rig=rig, rig_sizes=tuple(given.tolist())), found
 
 
-def _unexplained(step: float) -> Finding:
-    how = "as friction of the slide makes it" if step > 0 else "against the motion, as no friction does"
-    text = (
-        f"the force in air steps by {step:+.2g} N where the needle begins to move, {how}, "
-        "and neither friction that is alike on both ways nor a cable explains the air; nothing is subtracted, so the "
-        "model may have walls that are not there. To tell: move the needle over the same depths without tissue"
-    )
-    return Finding("air_steps", text)
+@dataclass(frozen=True)
+class _Friction:
+    """Friction of 1 N, also each way by itself."""
 
-
-def _step(trace: Trace, rest: Array, soon: Array, late: Array) -> float:
-    """By how much the force steps where the needle begins to move, N; 0 if it does not, or rises on with the depth."""
-    if len(rest) < BLOCK or min(len(soon), len(late)) < 3:
-        return 0.0
-    first, last = float(np.mean(soon) - np.mean(rest)), float(np.mean(late) - np.mean(soon))
-    step, count = first + last, len(soon) + len(late)
-    noise = max(noise_of(trace.force), float(np.std(rest)), rounding(trace.force))
-    blocks = [float(np.mean(rest[i : i + count])) for i in range(0, len(rest) - count + 1, count)]
-    slow = float(np.ptp(blocks)) if len(blocks) > 1 else 0.0
-    sure = SURE * noise * np.sqrt(1 / len(rest) + 1 / count) + SURE / 2 * slow
-    flat = abs(last) < LEVEL * abs(first)
-    return step if flat and abs(step) > max(sure, 2 * MATTERS * float(np.ptp(trace.force))) else 0.0
-
-
-def _beginning(trace: Trace, slide: Slide, way: float) -> tuple[Array, Array, Array]:
-    """The force in the rest before the first motion, soon after it, and a little later, N."""
-    start = int(slide.turns[0]) if len(slide.turns) else 0
-    gone = slide.way[start:]
-    end = start + int(np.argmax(gone > BEGIN * way)) if gone[-1] > BEGIN * way else start
-    quarter = start + int(np.argmax(gone > 0.25 * BEGIN * way))
-    middle = (quarter + end) // 2
-    return trace.force[: max(start - 1, 0)], trace.force[quarter:middle], trace.force[middle:end]
-
-
-def _stands_out(trace: Trace, slide: Slide, rest: Array, soon: Array, late: Array) -> bool:
-    """Whether the step at the beginning is greater than what slow noise makes in both rests, over the same time."""
-    after = trace.force[int(np.argmax(slide.way == slide.way[-1])) + 1 :]
-    width = max((len(soon) + len(late)) // 2, 3)
-    means = [one[: len(one) // width * width].reshape(-1, width).mean(axis=1) for one in (rest, after)]
-    wander = np.abs(np.concatenate([one[2:] - one[:-2] for one in means]))
-    step = float(np.mean(np.concatenate((soon, late))) - np.mean(rest[-width:]))
-    return len(wander) >= RESTS and abs(step) > SLOWLY * float(wander.max())
+    columns: Array  # (n, 1) or (n, 2)
+    way: float | None = None  # m, over which it rises, if a rest keeps it
+    by_way: Array = field(default_factory=lambda: np.zeros(0))  # (n,) 1/m, its derivative by that
 
 
 @dataclass(frozen=True)
 class _Found:
-    """What stands in air: the sizes of RIG_FORCES (2,), those of the other columns, and what is left (n,), N.
+    """What stands in air: the sizes of friction and cable, those of the other columns, and what is left (n,), N.
 
     NaN is left where a sample does not count.
     """
@@ -203,22 +171,31 @@ class _Keeping:
             calm &= sum(np.abs(np.diff(one, prepend=one[0])) for one in shape) < QUICK
         return calm & np.roll(calm, 1) & np.roll(calm, -1)
 
-    def found(self, deep: float) -> tuple[Array, _Found] | None:
-        """As _resting(), with friction that a rest keeps, and that of 1 N: both ends have one zero."""
+    def found(self, deep: float) -> tuple[_Friction, _Found] | None:
+        """As _resting(), with friction that a rest keeps, and that of 1 N: both ends have one zero.
+
+        None if it rises over more than the longest of WAYS, where the air does not tell it from a cable.
+        """
         trace, ends = self._trace, _ends(self._trace, deep)
         if len(ends) < 2:
             return None
         rows = np.concatenate([np.arange(end.start, end.stop)[self._calm[end]] for end in ends])
         at = int(np.argmin([self._left(shape, rows) for shape in self._shapes]))
-        finer = np.linspace(WAYS[max(at - 1, 0)], WAYS[min(at + 1, len(WAYS) - 1)], 2 * FINER + 1)
-        friction, before = min(map(self._slide.kept, finer), key=lambda shape: self._left(shape, rows))
+        if at == len(WAYS) - 1:
+            return None
+        finer = np.linspace(WAYS[max(at - 1, 0)], WAYS[at + 1], 2 * FINER + 1).tolist()
+        over = min(finer, key=lambda one: self._left(self._slide.kept(one), rows))
+        friction, before = self._slide.kept(over)
         longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
         told = [0, 1] if np.ptp(trace.depth[ends[1]]) > BOTH * np.ptp(trace.depth[ends[0]]) else [0]
         known, own = np.column_stack((friction, self._cable)), np.column_stack((before, self._one))
         found = _solved(trace, rows, known, own, told, longest)
         if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
             return None
-        return (friction + found.others[0] / found.sizes[0] * before)[:, None], found
+        first = found.others[0] / found.sizes[0]  # N, in the beginning
+        low, high = (self._slide.kept(over * (1 + step)) for step in (-STEP, STEP))
+        by_way = (high[0] - low[0] + first * (high[1] - low[1])) / max(2 * STEP * over, 1e-300)
+        return _Friction((friction + first * before)[:, None], over, by_way), found
 
     def _left(self, shape: tuple[Array, Array], rows: NDArray[np.int64]) -> float:
         """What friction of this shape, a cable and a drift leave there, N, rms."""
@@ -226,7 +203,15 @@ class _Keeping:
         since = [] if trace.time is None else [trace.time]
         known = np.column_stack([one[rows] for one in (*shape, self._cable, self._one, *since)])
         scale = np.maximum(np.abs(known).max(axis=0), 1e-300)
-        return _rms(trace.force[rows] - known / scale @ np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0])
+        return _rms(
+            trace.force[rows] - known / scale @ np.linalg.lstsq(known / scale, trace.force[rows], rcond=1e-10)[0]
+        )
+
+
+def _least(found: Sequence[_Found]) -> int:
+    """Which of them leaves least at the samples that count for all."""
+    same = np.isfinite([one.left for one in found]).all(axis=0)
+    return int(np.argmin([_rms(one.left[same]) for one in found]))
 
 
 def _rms(values: Array) -> float:
@@ -259,7 +244,11 @@ def _solved(
         if drift:  # a sensor that drifts in air does not do so evenly
             error[: len(kept)] += SLOW * abs(found[-1] / scale[-1]) * longest
         sure = np.abs(found[: len(kept)]) / np.maximum(error[: len(kept)], 1e-300)
-        if sure.min() > SURE and kept[-1] == columns.shape[1] - 1 and not _at_both_ends(trace, rows, known, kept, noise):
+        if (
+            sure.min() > SURE
+            and kept[-1] == columns.shape[1] - 1
+            and not _at_both_ends(trace, rows, known, kept, noise)
+        ):
             kept.pop()
             continue
         if sure.min() > SURE:
@@ -285,7 +274,10 @@ def _at_both_ends(trace: Trace, rows: NDArray[np.int64], known: Array, kept: lis
         return True
     inverse = np.linalg.inv(each.T @ each)
     first, last = (inverse @ (each.T @ trace.force[rows]))[:2]
-    own, shared = noise * np.sqrt(np.diag(inverse)[:2]), noise * np.sqrt(inverse[0, 0] + inverse[1, 1] - 2 * inverse[0, 1])
+    own, shared = (
+        noise * np.sqrt(np.diag(inverse)[:2]),
+        noise * np.sqrt(inverse[0, 0] + inverse[1, 1] - 2 * inverse[0, 1]),
+    )
     there = first * last > 0 and abs(first) > EACH * own[0] and abs(last) > EACH * own[1]
     return bool(there and abs(first - last) < EACH * shared)
 
