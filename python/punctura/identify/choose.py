@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from punctura import Needle
 from punctura.identify.air_noise import seen_in_air
-from punctura.identify.criteria import EVIDENCE, Candidate, worth_a_fit
+from punctura.identify.criteria import EVIDENCE, NOISY, Candidate, worth_a_fit
 from punctura.identify.fit import Start, squares_beyond
 from punctura.identify.late_sensor import with_late_sensor, without_late_sensor
 from punctura.identify.model import ONE_TISSUE, Extension, Model, extensions
@@ -15,6 +15,7 @@ from punctura.identify.rig import UNKNOWN, Rig
 from punctura.identify.search import Search, seen
 from punctura.identify.walls import with_a_wall_more, without_a_wall
 from punctura.trace import Segments, Trace
+from punctura.trace.ends import without_zero
 
 ALL = "all extensions"
 SETTLED = 2  # better optima of the chosen model, found by hops, at most
@@ -122,8 +123,18 @@ def choose(
     rig: Rig = UNKNOWN,
 ) -> Choice:
     """Tries the models that this trace may ask for, and chooses one."""
-    search = Search(trace, segments, needle, report, rig.late)
-    plain = search.fitted("K06", Model(membranes, rig=seen_in_air(trace)), search.starts(membranes, False, 3))
+    of_rig = seen_in_air(trace)
+    choice = _choice(Search(trace, segments, needle, report, rig.late), Model(membranes, rig=of_rig), most)
+    if without_zero(trace) and choice.current.fit.weighted_rmse > NOISY * noise_limit(trace):
+        without = tuple(name for name in of_rig if name != "slide_friction")  # it is of tissue
+        other = _choice(Search(trace, segments, needle, report, rig.late), Model(membranes, rig=without), most)
+        effective = min(choice.current, other.current, key=lambda one: one.fit.sse).effective
+        choice = min(choice, other, key=lambda one: one.current.worth(effective).bic)
+    return choice
+
+
+def _choice(search: Search, model: Model, most: int | None) -> Choice:
+    plain = search.fitted("K06", model, search.starts(model.membranes, False, 3))
     assert plain is not None
     choice = Choice(search, plain, plain, most)
     choice.settle()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from punctura.trace.air import above_air, baseline, slope
 from punctura.trace.ends import NO_AIR, NOISES, SMALL, rubbed
-from punctura.trace.rig_force import without_rig_force
+from punctura.trace.rig_force import with_friction_at_ends, without_rig_force
 from punctura.trace.samples import (
     coarse_force,
     gaps,
@@ -171,7 +171,7 @@ def _without_middle(trace: Trace, begin: float, end: float) -> tuple[Trace, Find
         "tissue that the needle is in from the beginning, or of the slide, or a zero that has jumped. So no air shows "
         f"the zero, and {said}. Begin and end in air, at rest: it tells them apart"
     )
-    return replace(trace, force=trace.force - middle), Finding(NO_AIR, text)
+    return with_friction_at_ends(replace(trace, force=trace.force - middle)), Finding(NO_AIR, text)
 
 
 def _drift(trace: Trace, segments: Segments) -> Iterator[Finding]:

@@ -98,6 +98,19 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     return replace(trace, force=force, rig=rig, rig_sizes=tuple(given.tolist())), found
 
 
+def with_friction_at_ends(trace: Trace) -> Trace:
+    """The trace with the shape of friction that a rest keeps, if it has none; nothing is subtracted of it.
+
+    Both ends of the trace may be under it, and no turn in air tells its size.
+    """
+    rig, slide = shapes(trace).copy(), slide_of(trace)
+    if rig[:, 0].any() or not len(slide.turns):
+        return trace
+    friction, before = slide.kept(0.0)
+    rig[:, 0] = friction + slide.signs[0] * before
+    return replace(trace, rig=rig)
+
+
 @dataclass(frozen=True)
 class _Friction:
     """Friction of 1 N, also each way by itself."""

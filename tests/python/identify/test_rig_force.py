@@ -82,7 +82,8 @@ def slid(depth, over, at_first):
     """Friction of 1 N of a slide that keeps it in a rest; it rises over so many m, and is at_first in the beginning."""
     force, given = np.empty(len(depth)), at_first
     for i, step in enumerate(np.diff(depth, prepend=depth[0])):
-        given = np.sign(step) + (given - np.sign(step)) * np.exp(-abs(step) / over) if step else given
+        left = np.exp(-abs(step) / over) if over else 0.0
+        given = np.sign(step) + (given - np.sign(step)) * left if step else given
         force[i] = given
     return force
 
@@ -194,3 +195,17 @@ def test_slow_noise_is_no_force_of_the_rig():
     conditions = TOOL["Conditions"](machine=True, drift=0.03)
     traces = [TOOL["random_trace"](seed, conditions)[0] for seed in range(20)]
     assert [without_rig_force(trace)[1] for trace in traces] == [[]] * 20
+
+
+def test_friction_that_no_turn_in_air_tells_is_a_parameter():
+    _, depth = motion(deepest=11e-3, speed=3e-3, hold=0)
+    noise = NOISE * np.random.default_rng(3).normal(size=len(depth))
+    force = force_of(depth, surface=4e-3) + 0.08 * slid(depth, 0, 1.0) + noise
+    trace = examine(Trace(depth, force, np.arange(len(depth)) / RATE))
+    assert kinds(trace)[0] == "no_air" and not any(trace.rig_sizes)
+    found = identify(trace, NEEDLE)
+    assert len(found.parameters.membranes) == 1
+    for name, truth in (("slide_friction", 0.08), ("membrane[0].friction", MEMBRANE.friction)):
+        low, high = bounds(found, name)
+        wide = high - low
+        assert low - wide / 2 < truth < high + wide / 2 and wide < 0.02
