@@ -63,6 +63,8 @@ LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
 
 SEEN = 0.002  # of the greatest force: a smaller drift does not matter
+PERIODS, FINE = 3, 4  # of a sine in the trace, at least; rates for each period more
+ONE_SINE = 0.6  # of the squares beside white noise: a random walk has up to 0.4 in one sine
 DRIFTING = 1.5  # times the other noise: with more slow noise, intervals of least squares are too narrow
 
 
@@ -112,6 +114,14 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
     slow = min(slow, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
     if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
         return
+    if (swing := _swing(fit, other)) is not None:
+        size, rate = swing
+        yield (
+            f"The measured force swings about the model by ±{size:.2g} N, {rate:.2g} times a second, as the hum of the "
+            "mains does where it is sampled slowly. The fit takes it for slow noise, so the intervals may be wrong. To "
+            "tell: sample at 500 Hz or more, or filter the force before it is sampled."
+        )
+        return
     steps = any(finding.kind == "air_steps" for finding in fit.misfit.trace.findings)  # so it may be no drift
     if air.allows(*fit.noise.most_likely()) and not steps:
         yield (
@@ -130,6 +140,17 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
             + ("" if steps else "This is no drift of the sensor, whose force in air does not show it. ")
             + "Do not trust the intervals."
         )
+
+
+def _swing(fit: Fit, other: float) -> tuple[float, float] | None:
+    """Size, N, and rate, Hz, of a sine that is most of the residuals beside the other noise, N; None if none is."""
+    time, left = fit.misfit.trace.time, fit.misfit.forces(fit.parameters) - fit.misfit.trace.force
+    if time is None:
+        return None
+    rates = np.arange(FINE * PERIODS, FINE * len(time) // 4) / (FINE * float(np.ptp(time)))
+    waves = np.abs([np.exp(-2j * np.pi * rate * (time - time[0])) @ left for rate in rates])
+    size, rate = 2 * float(waves.max(initial=0.0)) / len(time), float(rates[int(np.argmax(waves))])
+    return (size, rate) if size**2 / 2 > ONE_SINE * (float(np.var(left)) - other**2) else None
 
 
 def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> Iterator[str]:

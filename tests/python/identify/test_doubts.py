@@ -288,3 +288,15 @@ def test_a_tip_that_a_soft_spring_keeps_in_the_wall_is_told_to_go_deeper():
 def test_a_way_out_that_resists_more_may_be_the_sensor():
     kind, text = way_out(1.3)
     assert kind == "barbs" and "sensor" in text and "weights" in text
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_hum_that_is_sampled_slowly_is_no_drift(seed):
+    made = trace(noise=8e-3, seed=seed)
+    hum = 0.03 * np.sin(2 * np.pi * 0.7 * made.time + seed)
+    (said,) = [one for one in of(replace(made, force=made.force + hum)) if "about the model" in one]
+    assert "swings about the model by ±0.02" in said
+    rate = float(said.partition(" N, ")[2].partition(" times a second, as the hum")[0])
+    assert rate == pytest.approx(0.7, abs=0.04)  # it is looked for in steps of a quarter of a period in the trace
+    walk = 0.03 * np.cumsum(np.random.default_rng(seed).normal(size=len(made))) / np.sqrt(len(made))
+    assert not any("swings about" in one for one in of(replace(made, force=made.force + walk)))
