@@ -31,7 +31,7 @@ class SessionError(PuncturaError):
 class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
 
-    remedy = "free some space"
+    remedy = "free some space"  # what to do
 
     @property
     def fact(self) -> str:
