@@ -1,5 +1,6 @@
 """An exercise that is made in the page: saved, listed, tried, and opened from a file."""
 
+import re
 from pathlib import Path
 
 import tomllib
@@ -59,6 +60,58 @@ def test_a_scene_with_a_syringe_offers_the_goals_of_the_plunger(page):
     expect(running).to_contain_text("Inject no more than 1.5 mL in the 1 s after the plunger gives way")
     running.get_by_role("button", name="End").click()
     expect(running).to_be_hidden()
+
+
+# Of each kind of goal: its scene, a wrong value and what is said of it, a right value, and the goal's sentence.
+GOALS = {
+    "stay": ("Venipuncture", "0", "at least 0.01 s", "2", "Hold the whole tip in the vessel for 2 s"),
+    "never_pass": ("Venipuncture", None, "", "back vein wall", "Do not go through the back vein wall"),
+    "stop_after_pop": ("Venipuncture", "0", "at least 0.1 mm", "2", "Run no more than 2 mm past the front vein wall"),
+    "straight": ("Venipuncture", "0", "at least 0.1 mm", "0.5", "Stay within 0.5 mm of the line of entry"),
+    "peak_force": ("Venipuncture", "0", "at least 0.001 N", "0.5", "Push with no more than 0.5 N"),
+    "speed": ("Venipuncture", "0.1", "at least 0.5 mm/s", "5", "Push in with no more than 5 mm/s"),
+    "entry_angle": ("Venipuncture", "0", "at least 1 deg", "7", "Enter the skin at 30 degrees, within 7 degrees"),
+    "no_pause": ("Venipuncture", "0", "at least 0.01 s", "1", "Do not stand still for 1 s on the way to the vessel"),
+    "depth": ("Venipuncture", "0", "at least 0.1 mm", "2.5", "Keep the point within 2.5 mm of the front vein wall"),
+    "time_limit": ("Venipuncture", "0", "at least 0.01 s", "60", "Finish within 60 s of the first contact"),
+    "entries": ("Venipuncture", "1.5", "a whole number", "1", "Enter the skin no more than once"),
+    "feel_plunger": ("Epidural", "20", "at most 15 N", "2", "Feel the plunger give way: push it with at least 2 N"),
+    "stop_plunger": ("Epidural", "0", "at least 0.01 mL", "1.5", "Inject no more than 1.5 mL in the 1 s after"),
+}
+
+
+def test_each_kind_of_goal_has_its_field_its_problem_and_its_sentence(page):
+    ready(page)
+    side = tab(page, "Exercises")
+    side.get_by_text("Make an exercise", exact=True).click()
+    fields = side.locator(".maker :is(input, select)[id^='maker-goal.']")
+    scene = side.get_by_role("combobox", name="Scene", exact=True)
+    for name in ("Venipuncture", "Epidural"):
+        scene.select_option(name)
+        asked = {field.removeprefix("maker-goal.") for field in fields.evaluate_all("all => all.map(({id}) => id)")}
+        assert asked == {kind for kind, (where, *_) in GOALS.items() if where == name or name == "Epidural"}
+    for kind, (where, wrong, reason, right, sentence) in GOALS.items():
+        scene.select_option("Epidural" if where == "Venipuncture" else "Venipuncture")  # forgets the goals before
+        scene.select_option(where)
+        field = side.locator(f"[id='maker-goal.{kind}']")
+        side.get_by_label("Title").fill(f"Only {kind}")
+        for other in ("stay", "entries", "time_limit"):  # of a new exercise
+            side.locator(f"[id='maker-goal.{other}']").fill("")
+            side.locator(f"[id='maker-goal.{other}']").press("Tab")
+        if wrong is None:
+            field.select_option(right)
+        else:
+            field.fill(wrong)
+            field.press("Tab")
+            expect(side.locator(f"[id='maker-goal.{kind}-problem']")).to_contain_text(f"Must be {reason}")
+            field.fill(right)
+            field.press("Tab")
+        task = side.get_by_label("Instruction")
+        expect(task).to_have_value(re.compile("plunger" if "plunger" in kind else "^Push in at 30 degrees until the"))
+        side.get_by_role("button", name="Save on this computer").click()
+        goals = page.locator(f"[data-exercise='only-{kind.replace('_', '-')}'] .goals li")
+        expect(goals).to_have_count(1 if kind == "stay" else 2)  # else also to reach the space
+        expect(goals.last).to_contain_text(sentence)
 
 
 def drop(page, name, text):

@@ -9,7 +9,7 @@ from punctura._core import tip_length
 from punctura.errors import MISSING, Problem
 from punctura.exercise.exercise import ExerciseFile, start_axis
 from punctura.exercise.fields import LEAST_MM
-from punctura.exercise.goals import Given, Reach, Stay
+from punctura.exercise.goals import Given, MostDepth, Reach, Stay
 
 PARALLEL = 1 - 1e-9  # cosine of the angle between two normals
 ROUNDING_MM = 1e-9  # rounding error of sums and differences of decimal numbers
@@ -93,6 +93,11 @@ def tip_warnings(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:
     tip = _tip_mm(file, scene)
     space = file.space
     end, by = space_end_mm(space.model_dump(), scene)
+    ends = [(end, f"the space ends at {end:g} mm, by {by}")]
+    for goal in file.goal:
+        if isinstance(goal, MostDepth) and goal.at_most_mm is not None:
+            ends.append((goal.at_most_mm, f"a goal lets the point come to {goal.at_most_mm:g} mm"))
+    end, why = min(ends)
     for i, goal in enumerate(file.goal):
         if not isinstance(goal, Reach | Stay):
             continue
@@ -100,7 +105,7 @@ def tip_warnings(file: ExerciseFile, scene: Scene) -> Iterator[Problem]:
         if goal.whole_tip and depth + tip >= end:
             reason = (
                 f"the whole tip does not fit at the angle of the start: its end comes to {depth:g} mm only when the "
-                f"point is at {depth + tip:.2f} mm, and the space ends at {end:g} mm, by {by}"
+                f"point is at {depth + tip:.2f} mm, and {why}"
             )
             yield Problem(f"goal[{i}].whole_tip", True, reason)
         elif not goal.whole_tip and 0 < depth < tip:

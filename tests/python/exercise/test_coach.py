@@ -92,7 +92,8 @@ def test_going_through_the_wall_behind_is_told_with_speed_and_force(write):
 def test_too_much_force_is_told_with_the_largest_one(write):
     limit = goal("peak_force", at_most_N=0.3)
     remark = coached(write, way((-6, 5)), limit, REACH).change[0]
-    assert remark.text.startswith(f"You pushed with {remark.numbers['force_N']:.2f} N; 0.30 N are allowed")
+    assert remark.text.startswith("You pushed with more than the 0.30 N that are allowed: push more gently, and stop")
+    assert remark.numbers["force_N"] == pytest.approx(0.3, abs=0.005) and remark.numbers["force_N"] > 0.3
     gentle = coached(write, way((-6, 5), (-6, 0, 3)), goal("peak_force", at_most_N=3), STAY)
     assert "force" not in about(gentle.change)
     assert about(gentle.good)["force"].startswith("You never pushed with more than 0.")

@@ -193,6 +193,9 @@ def test_a_space_that_is_too_narrow_for_the_whole_tip_gives_a_warning(write):
     whole = goal("reach", whole_tip=True)
     assert warned(write, whole, space="deepest_mm = 4", head=SLANTED) == {}
     assert warned(write, whole, head=HEAD).keys() == {"goal[0].whole_tip"}  # the vein, with an upright needle
+    limit = warned(write, whole, goal("depth", at_most_mm=2), space="deepest_mm = 4", head=SLANTED)
+    assert limit["goal[0].whole_tip"].endswith("the point is at 2.06 mm, and a goal lets the point come to 2 mm")
+    assert warned(write, whole, goal("depth", at_most_mm=2.5), head=SLANTED) == {}
 
 
 def test_the_ready_exercises_give_no_warning():

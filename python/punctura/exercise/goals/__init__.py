@@ -34,4 +34,4 @@ GOALS: dict[str, type[Goal]] = {
     get_args(goal.model_fields["kind"].annotation)[0]: goal for goal in get_args(get_args(AnyGoal)[0])
 }
 
-__all__ = ["GOALS", "AnyGoal", "Course", "Given", "Goal", "OnLine", "Reach", "Stay"]
+__all__ = ["GOALS", "AnyGoal", "Course", "Given", "Goal", "MostDepth", "OnLine", "Reach", "Stay"]

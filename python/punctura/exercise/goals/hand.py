@@ -199,9 +199,10 @@ class ForceJudge(LimitJudge):
 
     def corrections(self, seen: Seen) -> Iterator[Remark]:
         peak = seen.metrics.peak_force
+        # The attempt ends with the first tick above the limit, so that the peak is hardly more.
         text = (
-            f"You pushed with {seen.newtons(peak)}; {self.at_most:.2f} N are allowed: push more gently, and stop as "
-            "soon as a wall gives way."
+            f"You pushed with more than the {seen.newtons(self.at_most)} that are allowed: push more gently, and stop "
+            "as soon as a wall gives way."
         )
         yield Remark(about="force", text=text, numbers={"force_N": peak, "allowed_N": self.at_most})
 

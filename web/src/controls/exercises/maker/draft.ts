@@ -96,8 +96,9 @@ export function draftOf(scene: SceneOutline, name = ""): Draft {
 /** The task's sentence. */
 function taskOf({ behind, from, angle, goals }: Omit<Draft, "instruction">): string {
   const push = `Push in${angle === 90 ? "" : ` at ${angle} degrees`}`;
-  const until = "feel_plunger" in goals ? "and push the plunger until it gives way behind" : "until";
-  const gives = "feel_plunger" in goals ? "" : " gives way";
+  const plunger = "feel_plunger" in goals || "stop_plunger" in goals;
+  const until = plunger ? "and push the plunger until it gives way behind" : "until";
+  const gives = plunger ? "" : " gives way";
   const end = from > 0 ? `, go on for ${from} mm, and stop.` : ", and stop.";
   return `${push} ${until} the ${behind}${gives}${end}`;
 }

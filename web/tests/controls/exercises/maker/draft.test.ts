@@ -83,8 +83,10 @@ test("the task's sentence follows angle, depth and plunger until the teacher edi
   const none = new Set<never>();
   const slanted = changed(draftOf(SCENE), { angle: 45, from: 2 }, SCENE, none);
   expect(slanted.instruction).toBe("Push in at 45 degrees until the front gives way, go on for 2 mm, and stop.");
-  const thumb = changed(draftOf(SCENE), { goals: { feel_plunger: 2 } }, SCENE, none);
-  expect(thumb.instruction).toBe("Push in and push the plunger until it gives way behind the front, and stop.");
+  for (const goal of ["feel_plunger", "stop_plunger"]) {
+    const thumb = changed(draftOf(SCENE), { goals: { [goal]: 2 } }, SCENE, none);
+    expect(thumb.instruction).toBe("Push in and push the plunger until it gives way behind the front, and stop.");
+  }
   const own = changed(slanted, { instruction: "Slowly!" }, SCENE, new Set(["instruction"]));
   expect(changed(own, { angle: 30 }, SCENE, new Set(["instruction"])).instruction).toBe("Slowly!");
 });
