@@ -190,7 +190,7 @@ def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> 
     if shape.one_sided:
         result.jnd = result.threshold if protocol.reference is not None else None
     elif protocol.compares:
-        result.jnd = _estimate(belief, grid.jnd())
+        result.jnd = Estimate(*map(float, belief.jnd((0.5, *SHARES))))
         away = np.abs(np.append(found.x, catch.x) - result.threshold.value) * QUARTER / result.jnd.value
         lapses = result.lapse.high > MANY_LAPSES or (away > CLEAR).sum() < LEAST_CLEAR  # would look like noise
         apart = found.level != protocol.reference  # equal intervals tell the bias alone

@@ -67,7 +67,8 @@ class Sizes(NamedTuple):
     lapse: int
 
 
-FIT = (Sizes(25, 13, 5, 6), Sizes(21, 11, 5, 7), Sizes(21, 11, 5, 10))  # each finer where the last one has its weight
+FIT = (Sizes(25, 13, 5, 6), Sizes(21, 11, 5, 7), Sizes(21, 11, 7, 10))  # each finer where the last one has its weight
+MORE, LEAST_STEPS = 5, 1.5  # such grids at most, until the weight has so many steps: many answers leave it little room
 QUEST = Sizes(61, 9, 3, 3)
 MOST_LAPSE, MOST_FLOOR, MOST_BIAS = 0.25, 0.45, 2.0
 BIAS = 0.7  # standard deviation of its prior
@@ -99,7 +100,9 @@ def _right(intervals: int) -> tuple[Array, float]:
 class Grid:
     """Combinations of parameters, each with its prior: (cells,) each."""
 
-    def __init__(self, shape: Shape, levels: npt.ArrayLike, sizes: Sizes, near: Sequence[Array] = ()) -> None:
+    def __init__(
+        self, shape: Shape, levels: npt.ArrayLike, sizes: Sizes, near: Sequence[tuple[float, float]] = ()
+    ) -> None:
         """levels: those that are shown. near: bounds of place, log of width, rest and root of lapse; default: wide."""
         self.shape = shape
         shown = shape.axis(levels)
@@ -108,13 +111,15 @@ class Grid:
         self.low, self.high = low, high
         spread = self.spread = high - low
         lowest = max(low - spread / 2, low / 4) if shape.bends and not shape.one_sided else low - spread / 2
-        widest: Sequence[Array | tuple[float, float]] = (
+        widest: Sequence[tuple[float, float]] = (
             (lowest, high + spread / 2),
-            np.log([1 / 12, 3.0] if shape.one_sided else spread * np.array([0.02, 2.0])),
+            (np.log(1 / 12), np.log(3.0)) if shape.one_sided else (np.log(0.02 * spread), np.log(2.0 * spread)),
             (0.0, MOST_FLOOR) if shape.rest == "floor" else (-MOST_BIAS, MOST_BIAS),
             (0.0, np.sqrt(MOST_LAPSE)),
         )
+        self.ends = widest
         axes = [np.linspace(ends[0], ends[1], count) for ends, count in zip(near or widest, sizes, strict=True)]
+        self.step = float(axes[1][1] - axes[1][0])  # of the logarithm of the width
         if not shape.rest:
             axes[2] = np.zeros(1)
         axes.insert(3, np.array(BENDS if shape.bends else BENDS[:1], np.float64))
@@ -201,6 +206,15 @@ class Belief(NamedTuple):
         found: Array = np.interp(shares, below, unique)
         return found
 
+    def jnd(self, shares: Sequence[float]) -> Array:
+        """Quantiles of the just noticeable difference. A width stands for all up to half a step from it: as single
+        values, those of the three shapes would lie in few heaps."""
+        unique, mass = self.marginal(np.log(self.grid.jnd()))
+        step = self.grid.step
+        at = np.linspace(unique[0] - step, unique[-1] + step, 401)
+        below = np.clip((at[:, None] - unique) / step + 0.5, 0.0, 1.0) @ mass
+        return np.exp(np.interp(shares, below, at))
+
     def density(self, values: Array, at: float) -> float:
         """Of the probability of the values at one of them, as a share of the largest; 0 outside the grid."""
         unique, mass = self.marginal(values)
@@ -228,20 +242,28 @@ def posterior(
     cells, each = np.unique(trials, axis=0, return_inverse=True)
     hits = np.bincount(each.ravel(), np.asarray(counted, np.float64), len(cells))
     total = np.bincount(each.ravel(), minlength=len(cells))
-    near: list[Array] = []
-    for sizes in FIT:
+    near: list[tuple[float, float]] = []
+    for sizes in FIT + FIT[-1:] * MORE:
         grid = Grid(shape, levels, sizes, near)
         p, caught = grid.probability(cells[:, 0], cells[:, 1]), grid.caught()
         log = hits @ np.log(p) + (total - hits) @ np.log1p(-p) + np.log(np.maximum(grid.prior, 1e-300))
         log = log + catch[0] * np.log(caught) + (catch[1] - catch[0]) * np.log1p(-caught)
         weight = np.exp(log - log.max())
         belief = Belief(grid, weight / weight.sum())
-        near = [_around(belief, values) for values in grid.parts]
+        around = [_around(belief, *part) for part in zip(grid.parts, grid.ends, strict=True)]
+        near = [bounds for bounds, _ in around]
+        if sizes is FIT[-1] and all(enough for _, enough in around):
+            break
     return belief
 
 
-def _around(belief: Belief, values: Array) -> Array:
-    """The bounds of the values that have any weight, and one value more on either side."""
+def _around(belief: Belief, values: Array, ends: tuple[float, float]) -> tuple[tuple[float, float], bool]:
+    """The bounds of the values that have any weight, and some more on either side; whether the values were fine enough
+    and reached far enough. ends: those of the prior."""
     unique, mass = belief.marginal(values)
-    heavy = np.flatnonzero(mass > 1e-3)
-    return unique[[max(heavy[0] - 1, 0), min(heavy[-1] + 1, len(unique) - 1)]]
+    heavy, last = np.flatnonzero(mass > 1e-3)[[0, -1]], len(unique) - 1
+    step = float(unique[-1] - unique[0]) / max(last, 1)
+    cut = heavy[0] == 0 and unique[0] > ends[0], heavy[1] == last and unique[-1] < ends[1]
+    low, high = (float(unique[i]) for i in heavy)
+    bounds = max(low - step * (1 + 2 * cut[0]), ends[0]), min(high + step * (1 + 2 * cut[1]), ends[1])
+    return bounds, last == 0 or not (any(cut) or high - low < LEAST_STEPS * step)
