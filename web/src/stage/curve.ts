@@ -1,6 +1,6 @@
 import { element } from "../panel.ts";
 import { CanvasPen } from "../plots/kit/canvas_pen.ts";
-import { apart, textWidth } from "../plots/kit/labels.ts";
+import { apart, spread, textWidth } from "../plots/kit/labels.ts";
 import { Polyline } from "../plots/kit/polyline.ts";
 import { label, niceStep, Scale, ticks } from "../plots/kit/scale.ts";
 import { colourOf, type Theme, watchTheme } from "../plots/kit/theme.ts";
@@ -230,8 +230,8 @@ export class CurvePicture {
 }
 
 /**
- * The names of the layers with their heights. Each is at its own layer, at most a letter away; where there is no room
- * for that, the names of the thinnest layers are left out.
+ * The names of the layers with their heights. Each is at its own layer, at most half a letter away; where there is no
+ * room for that, the names of the thinnest layers are left out.
  */
 export function placedNames(
   bands: readonly Band[],
@@ -243,8 +243,8 @@ export function placedNames(
   let named = bands.filter(({ name }) => name !== "");
   for (;;) {
     const wanted = named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2)));
-    const placed = apart(wanted, letter + 1, lowest);
-    if (named.every((band, i) => Math.abs(placed[i]! - wanted[i]!) <= Math.max(letter, high(band) / 2)))
+    const placed = spread(wanted, letter + 1, lowest);
+    if (named.every((band, i) => Math.abs(placed[i]! - wanted[i]!) <= Math.max(letter, high(band)) / 2))
       return named.map(({ name }, i) => ({ name, y: placed[i]! }));
     const thinnest = named.reduce((a, b) => (high(b) < high(a) ? b : a));
     named = named.filter((band) => band !== thinnest);

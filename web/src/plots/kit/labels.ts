@@ -50,3 +50,22 @@ export function apart(
   });
   return placed;
 }
+
+/** The same for a column in order, in which all can touch: moved up or down, by as little as possible together. */
+export function spread(middles: readonly number[], gap: number, bottom: number): number[] {
+  // Without the gaps, labels that are moved stand at the mean of what they want.
+  const groups: { mean: number; count: number }[] = [];
+  middles.forEach((middle, i) => {
+    let group = { mean: middle - i * gap, count: 1 };
+    for (let above = groups.at(-1); above && above.mean > group.mean; above = groups.at(-1)) {
+      const count = above.count + group.count;
+      group = { mean: (above.mean * above.count + group.mean * group.count) / count, count };
+      groups.pop();
+    }
+    groups.push(group);
+  });
+  const most = bottom - (middles.length - 1) * gap;
+  return groups
+    .flatMap(({ mean, count }) => new Array<number>(count).fill(Math.min(mean, most)))
+    .map((place, i) => place + i * gap);
+}
