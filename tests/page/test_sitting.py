@@ -13,11 +13,13 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
     answered(tmp_path, 18)
     with sitting(tmp_path) as studio, opened(browser, studio.url, sound="on", bench=False) as page:
         sentence(page, "18 of 20 trials are done.")
-        expect(page.get_by_text("Press a key for the sound.")).to_be_visible()
+        expect(page.get_by_text("Press a key or touch the page for the sound.")).to_be_visible()
         with page.expect_response(lambda answer: answer.url.endswith("/api/noise.wav")):
             page.keyboard.press("Enter")
         sentence(page, "Trial 19 of 20: push the needle through the tissue")
-        expect(page.get_by_text("Press a key for the sound.")).to_be_hidden()
+        expect(page.get_by_text("Press a key or touch the page for the sound.")).to_be_hidden()
+        page.evaluate("document.querySelector('.fault').append('The force is off.')")  # the sentence tells it
+        expect(page.locator(".fault")).to_be_hidden()
         expect(page.locator(".stage-force")).to_be_hidden()
         expect(page.locator(".stage-curve")).to_be_hidden()
         expect(page.locator(".view-main > canvas")).to_have_css("opacity", "0")

@@ -146,7 +146,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     if protocol.reference is not None:
         keys |= {"jnd": f"JND{unit}", "weber": "Weber fraction"}
     if not (protocol.rates or protocol.adjusts):
-        keys |= {"lapse": "lapses"} | ({"first": "first if equal"} if file.task == "two_intervals" else {})
+        keys |= {"lapse": "lapses"} | ({"first": '"first" if equal'} if file.task == "two_intervals" else {})
     shares = "right answers" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
     form, rows = ".3g" if protocol.rates or protocol.adjusts else ".0%", []

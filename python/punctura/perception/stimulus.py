@@ -108,7 +108,7 @@ def felt_of(recording: Path, intervals: Sequence[Scene], membrane: int) -> list[
     changes = np.flatnonzero(ticks.commands & COMMAND_SCENE).tolist()
     ends = [0, *changes, len(ticks)]
     if len(ends) != len(intervals) + 1:
-        raise Spoilt(f"its recording has {len(ends) - 1} of {len(intervals)} intervals")
+        raise Spoilt(f"the recording has {len(ends) - 1} of {len(intervals)} intervals")
     return [
         _felt(ticks[start:end], one, membrane, READY_S * (start > 0))
         for (start, end), one in zip(pairwise(ends), intervals, strict=True)
@@ -120,7 +120,7 @@ def _felt(ticks: Ticks, scene: Scene, membrane: int, ready: float) -> Felt:
     stroke = slice(run.touch, None)
     limits = {Limit(int(one)).name for one in np.unique(ticks.limit[stroke])} - {"none"}
     if lost := int(ticks["lost"].sum()):
-        raise Spoilt(f"{lost} ticks were lost")
+        raise Spoilt(f"the computer was too busy ({lost} ticks were lost)")
     if (faults := ticks.fault[ticks.fault != 0]).size:
         raise Spoilt(describe(Fault(int(faults[0]))))
     if run.depth[0] > 0 or run.time[run.touch] - run.time[0] < ready:
@@ -131,7 +131,7 @@ def _felt(ticks: Ticks, scene: Scene, membrane: int, ready: float) -> Felt:
         raise Spoilt("the force was not on yet: wait a moment in front of the tissue")
     through = crossing(scene, membrane, 1.0).through
     if ticks.depth[:, membrane].max() < through:
-        raise Spoilt(f"the needle did not go through the {scene.membranes[membrane].name}")
+        raise Spoilt("the needle did not go through the tissue")
     return felt(run, membrane, float(ticks.force_scale[-1]))
 
 

@@ -24,7 +24,7 @@ class WordsTable(Table):
     stroke: Text = "push the needle through the tissue, then draw it out."
     deeper: Text = "Not through yet: push deeper."
     right: Text = "Right."
-    wrong: Text = "That was another one."
+    wrong: Text = "No, it was another one."
     block: Text = "A block is over."
     rest: Text = "Rest for at least {seconds} s."
     repeated: Text = "The trial is repeated: {why}."  # the reason is English

@@ -34,7 +34,7 @@ from punctura.studio.wire.messages import AnswerKey, SittingMessage
 from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
-ENDED = "the run has ended"
+ENDED = "it was interrupted"
 MEND = "mend this (on a full disk, make space)"
 NOISE_S = 20
 Then = Callable[[str], None]  # gets an answer

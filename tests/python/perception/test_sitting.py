@@ -201,7 +201,7 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
         person.goes_through("interval 2")
         person.reads("repeated: the needle was in the tissue before the interval began")
         person.answers("Go on")
-        for wrong, remark in ((False, "Right. "), (True, "That was another one. ")):
+        for wrong, remark in ((False, "Right. "), (True, "No, it was another one. ")):
             person.goes_through("interval 1")
             person.goes_through("interval 2")
             person.reads("Which one fell more?")

@@ -9,7 +9,12 @@ const MOVES = ["ArrowDown", "ArrowUp", "Shift"];
 /** A participant's session on the stage: its sentence is the stage's, below it are the answers. */
 export const sitting: Panel = (root, app) => {
   const answers = element("div", { role: "group", "aria-label": "Answers" });
-  const typed = element("input", { inputmode: "decimal", "aria-label": "A number above 0", autocomplete: "off" });
+  const typed = element("input", {
+    inputmode: "decimal",
+    "aria-label": "A number above 0",
+    placeholder: "then Enter",
+    autocomplete: "off",
+  });
   const off = (): void => void app.ask({ do: "pause" });
   const stop = element("button", { type: "button", class: "sitting-stop", onclick: off }, "Force off (Esc)");
   const sound = maskingNoise(app);
@@ -39,7 +44,12 @@ export const sitting: Panel = (root, app) => {
     pageOf(app).value = "stage";
     const gone = app.connection.value.state !== "open"; // then nobody takes an answer
     const buttons = (gone ? [] : now.answers).map(({ name, key }) =>
-      element("button", { type: "button", onclick: () => answer(name) }, name, element("kbd", {}, key)),
+      element(
+        "button",
+        { type: "button", onclick: () => answer(name) },
+        name,
+        ...(name === key ? [] : [element("kbd", {}, key)]),
+      ),
     );
     answers.replaceChildren(...buttons);
     typed.hidden = gone || !now.any_number;
@@ -74,7 +84,7 @@ export const sitting: Panel = (root, app) => {
 
 /** Browsers block sound that no key and no click began. An answer by the device's buttons is neither. */
 function maskingNoise(app: App): { begin: () => void; show: () => void; missing: HTMLElement } {
-  const missing = element("p", { role: "status", hidden: true }, "Press a key for the sound.");
+  const missing = element("p", { role: "status", hidden: true }, "Press a key or touch the page for the sound.");
   let context: AudioContext | null = null;
   let loads = false;
   let plays = false;
