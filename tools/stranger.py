@@ -32,7 +32,8 @@ KEYS = "The keys ↓ and ↑ move the needle."
 
 
 def said(page: Page) -> str:
-    return page.get_by_role("status").filter(visible=True).first.inner_text()
+    words = page.locator("[role=alert], [role=status]").filter(visible=True).all_inner_texts()
+    return " / ".join(" ".join(one.split()) for one in words)
 
 
 class Mouse:  # drags like a hand: slowly, and anew where the page ends
