@@ -18,7 +18,7 @@ struct SkinLaw {
   };
   double bottom, cut = 0.8, friction = 0.05;  // m, N, N
 
-  PiecewiseBand<double, 5> pieces(double = 1, const Memory& m = {}) const noexcept {
+  PiecewiseBand<double, 5> pieces(double, const Memory& m) const noexcept {
     const double front = std::min(m.front, bottom), hole = std::clamp(m.hole, front, bottom);
     const auto wall = [&](double whole) { return BandPiece<double>{0, {-friction - whole * cut}, {friction}}; };
     // A piece without length is still a wall: it has the force of its neighbour.

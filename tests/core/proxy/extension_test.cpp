@@ -145,6 +145,48 @@ TEST_CASE("friction that grows with the speed of the last tick is steady up to b
   }
 }
 
+TEST_CASE(
+    "friction that grows with the speed of its own tick is steady for any b, with the paper's solver to 1.4 N s/m") {
+  struct Viscous {
+    using Scalar = double;
+    struct Memory {
+      double last, dt;
+    };
+    double b, F = 0.1;  ///< N s/m, N
+    PiecewiseBand<double, 4> pieces(double, const Memory& m) const noexcept {
+      const double slope = m.dt > 0 ? b / m.dt : 0, reach = 5e-3, most = F + slope * reach;
+      return {{0, m.last, m.last + reach},
+              {{{}, {m.last, {-F}, {F, -slope}}, {m.last, {-F, -slope}, {F}}, {0, {-most}, {F}}}}};
+    }
+    bool advance(Memory& m, double depth, double dt) const noexcept {
+      m = {std::max(depth, 0.0), dt > 0 ? dt : m.dt};
+      return true;
+    }
+  };
+  const double K = 400, B = 1, most = (B + K * T) * (B + K * T / 2) / B, v = 20e-3;  // 1.406 N s/m
+  for (int i = 0; i < 8; ++i) {
+    const Solver solver = i < 4 ? Solver::exact : Solver::paper;
+    const double b = std::array{0.5, 0.98, 1.02, 4.0}[i % 4] * most;
+    CAPTURE(i);
+    Proxy1d line(Viscous{b}, Coupling{K, B}, T, solver);
+    Proxy3d space(Viscous{b}, Vector3d(), down, Coupling{K, B}, T, solver);
+    double lowest = 10, highest = 0;  // N, on the way in and out
+    for (int k = 0; k < 6200; ++k) {
+      const double p = -1.003e-3 + v * (k < 3200 ? k : 6400 - k) * T, f = line.step(p);
+      CHECK(-space.step({0, -p, 0}, down).y() == doctest::Approx(f).epsilon(1e-6));
+      if (k % 3200 < 2400) continue;
+      lowest = std::min(lowest, std::abs(f));
+      highest = std::max(highest, std::abs(f));
+    }
+    if (solver == Solver::exact || b < most) {
+      CHECK(lowest == doctest::Approx(0.1 + b * v).epsilon(1e-6));
+      CHECK(highest == doctest::Approx(0.1 + b * v).epsilon(1e-6));
+    } else {
+      CHECK(highest - lowest > 0.01);
+    }
+  }
+}
+
 TEST_CASE("with a coupling with memory, the force on a needle at rest relaxes") {
   const double tau = 0.1, K_m = 300;
   const OwnCoupling coupling{{Coupling{400, 1}, T}, K_m, std::exp(-T / tau)};
