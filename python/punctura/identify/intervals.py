@@ -91,7 +91,7 @@ def with_subtracted(found: Sequence[Estimate], trace: Trace) -> tuple[Estimate, 
 def _widest(fit: Fit, name: str) -> float:
     """The width of an interval that tells nothing of a zero of the sensor, SI."""
     trace = fit.misfit.trace
-    if name in ("offset", "slide_friction", "slide_friction_out"):
+    if name == "offset" or name.startswith("slide_friction"):
         return float(np.ptp(trace.force))
     if name == "drift" and trace.time is not None:
         return float(np.ptp(trace.force) / np.ptp(trace.time))

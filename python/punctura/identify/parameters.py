@@ -21,7 +21,8 @@ ZERO = ("offset", "drift", *RIG_FORCES)  # what the force of a sample has beside
 NUISANCE = (*ZERO, *LATE)  # of the rig
 LATEST = {"lag": 0.2, "delay": 0.2, "play": 1e-3, "slack": 1e-3}  # s, m: what is more is no error of a rig
 UNITS = TraceModel.units | {
-    "offset": "N", "drift": "N/s", "slide_friction": "N", "slide_friction_out": "N", "slide_way": "m",
+    "offset": "N", "drift": "N/s", "slide_friction": "N", "slide_friction_out": "N",
+    "slide_friction_before": "N", "slide_way": "m",
     "cable_stiffness": "N/m", "lag": "s", "delay": "s", "play": "m", "slack": "m",
 }  # fmt: skip
 _LOGARITHMIC = {

@@ -55,6 +55,7 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "slack": (TURN,),
     "slide_friction": (BEFORE,),
     "slide_friction_out": (("air behind", "end outside the tissue"),),
+    "slide_friction_before": (BEFORE,),
     "slide_way": (("", "turn in air, slowly"),),
     "cable_stiffness": (BEFORE,),
     "drift": (BEFORE, ("air behind", "end outside the tissue")),

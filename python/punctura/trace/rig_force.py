@@ -22,10 +22,11 @@ from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
-# N, against the motion: on both ways, or on the way in, and then on the way out; m, over which it rises where the slide
-# turns; N/m, of the depth
-RIG_FORCES = ("slide_friction", "slide_friction_out", "slide_way", "cable_stiffness")
-FOUND, SLIDE_WAY = (RIG_FORCES[0], RIG_FORCES[-1]), 2  # the findings; one that is of no force itself
+# N, against the motion: on both ways, or on the way in, and then on the way out; N, kept from before the first sample;
+# m, over which it rises where the slide turns; N/m, of the depth
+RIG_FORCES = ("slide_friction", "slide_friction_out", "slide_friction_before", "slide_way", "cable_stiffness")
+FOUND = RIG_FORCES[0], RIG_FORCES[-1]  # the findings
+BEFORE, SLIDE_WAY = 2, 3  # one of the beginning alone, and one that is of no force itself
 PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be air
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
@@ -41,7 +42,7 @@ ITSELF = 1.15  # times the friction that a slide keeps from before: it is no mor
 
 
 def shapes(trace: Trace) -> Array:
-    """What 1 N, 1 m and 1 N/m of RIG_FORCES add to the force (n, 4); 0 for those that the air does not show."""
+    """What 1 N, 1 m and 1 N/m of RIG_FORCES add to the force (n, 5); 0 for those that the air does not show."""
     return np.zeros((len(trace), len(RIG_FORCES))) if trace.rig is None else trace.rig
 
 
@@ -89,6 +90,8 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     rig, given = np.zeros((len(trace), len(RIG_FORCES))), np.zeros(len(RIG_FORCES))
     if seen[0]:
         rig[:, :ways], given[:ways] = friction.columns, sizes[:-1]
+        if kept:
+            rig[:, BEFORE], given[BEFORE] = friction.before, chosen.others[0]
         by_way = sizes[0] * friction.by_way
         if friction.way and np.max(np.abs(by_way)) * friction.way > noise_of(trace.force):  # else nothing tells it
             rig[:, SLIDE_WAY], given[SLIDE_WAY] = by_way, friction.way
@@ -118,6 +121,7 @@ class _Friction:
     columns: Array  # (n, 1) or (n, 2)
     way: float | None = None  # m, over which it rises, if a rest keeps it
     by_way: Array = field(default_factory=lambda: np.zeros(0))  # (n,) 1/m, its derivative by that
+    before: Array = field(default_factory=lambda: np.zeros(0))  # (n,) what 1 N from before the first sample adds
 
 
 @dataclass(frozen=True)
@@ -208,7 +212,7 @@ class _Keeping:
         first = found.others[0] / found.sizes[0]  # N, in the beginning
         low, high = (self._slide.kept(over * (1 + step)) for step in (-STEP, STEP))
         by_way = (high[0] - low[0] + first * (high[1] - low[1])) / max(2 * STEP * over, 1e-300)
-        return _Friction((friction + first * before)[:, None], over, by_way), found
+        return _Friction(friction[:, None], over, by_way, before), found
 
     def _left(self, shape: tuple[Array, Array], rows: NDArray[np.int64]) -> float:
         """What friction of this shape, a cable and a drift leave there, N, rms."""

@@ -64,8 +64,8 @@ class Trace:
     source: str = ""  # its file, for messages
     findings: tuple[Finding, ...] = field(default=(), repr=False)  # what is unusual in it
     depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
-    rig: Array | None = field(default=None, repr=False)  # (n, 4) shapes of the rig's own forces (rig_force.py), if any
-    rig_sizes: tuple[float, ...] = field(default=(0.0,) * 4, repr=False)  # SI, of these that are subtracted
+    rig: Array | None = field(default=None, repr=False)  # (n, 5) shapes of the rig's own forces (rig_force.py), if any
+    rig_sizes: tuple[float, ...] = field(default=(0.0,) * 5, repr=False)  # SI, of these that are subtracted
 
     def __post_init__(self) -> None:
         for name in ("depth", "force", "time"):

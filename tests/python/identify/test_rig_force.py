@@ -113,6 +113,8 @@ def test_the_way_over_which_friction_rises_is_a_parameter(over):
     assert low < over < high and high - low < over
     low, high = bounds(found, "membrane[0].friction")
     assert low < MEMBRANE.friction < high
+    low, high = bounds(found, "slide_friction_before")
+    assert low < 0 < high
 
 
 def test_friction_that_differs_by_the_way_has_a_parameter_for_each():
