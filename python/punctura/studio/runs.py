@@ -178,9 +178,10 @@ class Runs:
         pose: Pose | None = None,
         record: str | None = None,
         about: JsonObject | None = None,
+        remind: bool = True,
     ) -> None:
         """Starts a new run with this activity. Raises what `begin` and the activity's own `begin` raise."""
-        self.begin(loaded, pose, record, about)
+        self.begin(loaded, pose, record, about, remind)
         self.activities.begin(activity, self.run.loop.scene)
 
     def begin_again(self, remind: bool = True) -> None:

@@ -148,7 +148,7 @@ class PerceptionSitting:
         try:
             for file in recordings(self._folder, self._participant, f"{self._trial.number:04d}"):
                 file.unlink(missing_ok=True)  # of attempts before, and what a kill left of one
-            studio.begin_activity(self, self._scene(), None, self._name(), about)
+            studio.begin_activity(self, self._scene(), None, self._name(), about, remind=False)
         except (PuncturaError, OSError) as bad:
             self._pause(bad, lambda _: self._armed())
         else:
@@ -227,7 +227,8 @@ class PerceptionSitting:
     def _idle(self) -> None:
         """A run without force and recording. If the device does not start, the next trial says so."""
         studio = self._studio
-        studio.defects.guard(lambda: studio.begin_activity(self, studio.run.loaded, studio.run.pose))
+        idle = partial(studio.begin_activity, self, studio.run.loaded, studio.run.pose, remind=False)
+        studio.defects.guard(idle)
         studio.run.loop.pause()
 
     def _again(self, why: str) -> None:

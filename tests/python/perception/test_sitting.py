@@ -316,6 +316,7 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
         with StudioClient(server.address.url) as onlooker:
             assert onlooker.ask(do="pause")["ok"] and not onlooker.ask(do="trip_fault")["ok"]
         person.reads("repeated: the force was turned off")
+        assert not [said for said in person.page.of("notice") if "still off" in said["text"]]  # "Go on" turns it on
     assert server.session.failure is None
 
 
