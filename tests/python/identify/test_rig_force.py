@@ -115,6 +115,7 @@ def test_the_way_over_which_friction_rises_is_a_parameter(over):
     assert low < MEMBRANE.friction < high
     low, high = bounds(found, "slide_friction_before")
     assert low < 0 < high
+    assert any("coupling_stiffness is too narrow" in text for text in found.verdicts)
 
 
 def test_friction_that_differs_by_the_way_has_a_parameter_for_each():
