@@ -55,10 +55,10 @@ def both_ways(trace: Trace, segments: Segments, fit: Fit) -> Ways | None:
         return None
     force = trace.force - fit.misfit.of_rig(fit.parameters)
     force = force - float(np.median(force[air]))
-    ends = ([] if segments.contact is None else [slice(segments.contact + 1)]) + (
+    levels = ([] if segments.contact is None else [slice(segments.contact + 1)]) + (
         [] if segments.exit is None else [slice(segments.exit, None)]
     )
-    zeros = [float(np.median(force[one])) for one in ends] or [0.0]
+    zeros = [float(np.median(force[one])) for one in levels] or [0.0]
     within = np.arange(len(trace))
     halves = []
     for low, high in ((begin, 0.5 * (begin + deep)), (0.5 * (begin + deep), deep)):
