@@ -158,8 +158,10 @@ def _repeated(air: Array) -> bool:
     for long.
     """
     lengths, changes = np.diff(equal_runs(air)), np.abs(np.diff(air))
-    moved = changes[changes > 0]
+    moved, still = changes[changes > 0], air[1:][changes == 0]
     if len(moved) > (1 - REPEATED) * len(changes) or int(lengths.max()) > STILL * len(air):
+        return False
+    if len(np.unique(still)) < UNLIKE * len(still):  # of a sensor that shows no pull
         return False
     values = len(np.unique(np.round(moved / (DIGITS * float(moved.max())))))
     return values > UNLIKE * len(moved) and rounding(air) == 0
