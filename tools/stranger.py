@@ -26,7 +26,7 @@ PIXELS_PER_S = 300  # of a hand that has never done it
 STEP_MS = 33  # between two positions of the mouse, or two repeats of a key
 
 SENTENCE = re.compile("push until it gives")
-GAVE = re.compile(r"It gave: the (?:model |felt )?force fell by ([0-9.]+) N")
+GAVE = re.compile(r"It gave: the (?:model |felt )?force fell by ([0-9.]+)\sN")  # a space at which no line breaks
 OUT = "the needle is out"
 KEYS = "The keys ↓ and ↑ move the needle."
 
