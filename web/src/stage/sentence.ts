@@ -8,7 +8,7 @@ import { type Band, bandAt } from "../tissue/bands.ts";
 import type { Felt } from "./attempt.ts";
 
 /** What the stage says. takeOver: that another page, or none, moves the needle, so that this page may take control. */
-interface Said {
+interface Words {
   readonly text: string;
   readonly takeOver: boolean;
 }
@@ -21,12 +21,12 @@ export class Sentence {
   constructor(private readonly app: App) {}
 
   /** now: of the needle; null if it is not known, or must not be told. */
-  said(bands: readonly Band[], now: Felt | null): Said {
-    const words = this.words(bands, now);
+  words(bands: readonly Band[], now: Felt | null): Words {
+    const words = this.choose(bands, now);
     return typeof words === "string" ? { text: unbroken(words), takeOver: false } : words;
   }
 
-  private words(bands: readonly Band[], now: Felt | null): string | Said {
+  private choose(bands: readonly Band[], now: Felt | null): string | Words {
     const { app, progress } = this;
     if (app.sitting.value)
       return app.connection.value.state === "open" ? app.sitting.value.sentence : "The studio is not connected.";

@@ -125,7 +125,7 @@ export const stage: Panel = (root, app) => {
     }
     if (time - wordsAt < WORDS_MS) return;
     wordsAt = time;
-    const { text, takeOver } = sentence.said(bands, hidden ? null : now);
+    const { text, takeOver } = sentence.words(bands, hidden ? null : now);
     write(words, text);
     take.hidden = !takeOver;
     write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");

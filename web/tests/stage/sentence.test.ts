@@ -29,22 +29,22 @@ beforeEach(() => {
 it("a page that looks on tells what happens, and not only that it has no control", () => {
   const sentence = new Sentence(app);
   control(false, 3);
-  expect(sentence.said([SKIN], INSIDE)).toEqual({ text: "The tip is in the skin, 1\u00a0mm deep.", takeOver: false });
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "The tip is in the skin, 1\u00a0mm deep.", takeOver: false });
   // The button Take control stands beside it.
-  expect(sentence.said([SKIN], null)).toEqual({ text: "Another page moves the needle.", takeOver: true });
+  expect(sentence.words([SKIN], null)).toEqual({ text: "Another page moves the needle.", takeOver: true });
   app.exercise.value = { running: true, instruction: "Push slowly." } as ExerciseStatus;
-  expect(sentence.said([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
 });
 
 it("tells who could move the needle, and that the studio is gone", () => {
   const sentence = new Sentence(app);
   control(false, null);
-  expect(sentence.said([SKIN], null)).toEqual({ text: "Nobody moves the needle.", takeOver: true });
+  expect(sentence.words([SKIN], null)).toEqual({ text: "Nobody moves the needle.", takeOver: true });
   for (const session of [null, { sentence: "Push." }]) {
     app.sitting.value = session as never;
     server.connection({ state: "open" });
-    if (session) expect(sentence.said([SKIN], null).text).toBe("Push.");
+    if (session) expect(sentence.words([SKIN], null).text).toBe("Push.");
     server.connection({ state: "closed", retry: 0 } as never);
-    expect(sentence.said([SKIN], INSIDE).text).toBe("The studio is not connected.");
+    expect(sentence.words([SKIN], INSIDE).text).toBe("The studio is not connected.");
   }
 });
