@@ -44,6 +44,13 @@ def test_a_memory_that_is_not_plain_numbers_is_refused_with_the_cause(tmp_path, 
     assert "must be plain numbers" in done.stderr and "std::string" in done.stderr
 
 
+def test_a_memory_that_is_too_large_for_the_stack_of_a_thread_is_refused(tmp_path):
+    assert compiled(tmp_path, "double cuts[8192];").returncode == 0
+    done = compiled(tmp_path, "double cuts[8193];")
+    assert done.returncode != 0
+    assert "must have at most 64 KiB" in done.stderr
+
+
 @pytest.mark.parametrize(
     "advance",
     [

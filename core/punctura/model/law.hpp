@@ -168,6 +168,11 @@ constexpr bool check_memory() noexcept {
                 "the Memory of the law must be plain numbers, which Memory{} sets and '=' copies: without a reference, "
                 "a const member, a std::string, a std::vector, and without a constructor that needs arguments, a copy "
                 "constructor, an assignment or a destructor of its own");
+  if constexpr (requires { typename L::Memory; })
+    static_assert(
+        sizeof(typename L::Memory) <= 65536,
+        "the Memory of the law must have at most 64 KiB: copies of it lie on the stack of a thread, which may "
+        "have only 512 KiB");
   static_assert(!PlainMemory<L> || memory_is_whole<L>,
                 "a part of the law's memory is missing or has another form: struct Memory; "
                 "bool advance(Memory&, Scalar depth) const noexcept, or (Memory&, Scalar depth, Scalar dt); "

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +15,7 @@ namespace punctura {
 struct LawFlaw {
   enum class Kind : std::uint8_t {
     none,
-    in_front,  ///< the band is not 0 in front of the first break
+    in_front,  ///< the band is not 0 in front of the first break; NaN there: a ManyPieces has too many pieces
     behind,    ///< an edge is not constant behind the last finite break
     order,     ///< break `at` is in front of `depth`, or is not a number
     band,      ///< the lower edge is above the upper one at `depth`, or one is not finite
@@ -27,9 +26,17 @@ struct LawFlaw {
   double depth = 0, lower = 0, upper = 0;  ///< m, N, N
 };
 
+/// The same flaws, as the fault of a run names them: it cannot say which one it was, nor where.
+inline constexpr const char* flawed_in_run =
+    "the model gave a force that is not a number, or its law has a band that is not finite, not 0 in front of the "
+    "first break, not constant behind the last one, or whose lower edge is above the upper one or above 0 N, or it has "
+    "breaks in front of the surface, out of order or too many: "
+    "correct the law if it is your own; otherwise please report the scene and the recording";
+
 /// The first flaw. only_finite: of a scene's own law, whose edges cross by rounding alone.
 template <typename Pieces>
-LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
+constexpr LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
+  using lane::abs, lane::finite;
   using Scalar = typename Pieces::Scalar;
   using Kind = LawFlaw::Kind;
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -39,28 +46,30 @@ LawFlaw find_flaw(const Pieces& pieces, bool only_finite = false) noexcept {
   while (first < pieces.last() && static_cast<double>(pieces.end(first)) == -infinity) ++first;
   const auto& front = pieces.piece(first);
   const auto& back = pieces.piece(pieces.last());
-  if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0) return {Kind::in_front};
+  if (!level(front.lower) || !level(front.upper) || front.lower.c0 != 0 || front.upper.c0 != 0)
+    return {Kind::in_front, 0, 0, static_cast<double>(front.lower.c0), static_cast<double>(front.upper.c0)};
   if (!level(back.lower) || !level(back.upper)) return {Kind::behind};
   double from = 0, largest = 0;  // m, N
-  for (std::size_t i = first + 1; i <= pieces.last() && std::isfinite(from); ++i) {
+  for (std::size_t i = first + 1; i <= pieces.last() && finite(from); ++i) {
     const auto start = static_cast<double>(pieces.end(i - 1));
     if (!(start >= from - 1e-12)) return {Kind::order, i - 1, from};
     from = start;
     const auto& piece = pieces.piece(i);
     const double to = i < pieces.last() ? static_cast<double>(pieces.end(i)) : from;
-    if (to == infinity && std::isfinite(from) && !(level(piece.lower) && level(piece.upper))) return {Kind::behind};
+    if (to == infinity && finite(from) && !(level(piece.lower) && level(piece.upper))) return {Kind::behind};
     const auto turn = [&](const auto& edge) {  // where it is largest or smallest, m
-      const auto at = static_cast<double>(piece.origin - edge.c1 / (2 * edge.c2));  // no finite one if it is straight
+      if (edge.c2 == 0) return from;
+      const auto at = static_cast<double>(piece.origin - edge.c1 / (2 * edge.c2));
       return at > from && at < to ? at : from;
     };
     for (const double depth : {from, to, turn(piece.upper.minus(1, piece.lower)), turn(piece.lower)}) {
-      if (!std::isfinite(depth)) continue;
+      if (!finite(depth)) continue;
       const auto [lower, upper] = piece.band(static_cast<Scalar>(depth));
       const LawFlaw found{Kind::band, 0, depth, static_cast<double>(lower), static_cast<double>(upper)};
-      largest = std::max({largest, std::abs(found.lower), std::abs(found.upper)});
+      largest = std::max({largest, abs(found.lower), abs(found.upper)});
       const double rounding =  // an average rounds to its parts
-          1e-6 * (std::abs(found.lower) + std::abs(found.upper)) + of_parts * largest;
-      if (!std::isfinite(rounding)) return found;
+          1e-6 * (abs(found.lower) + abs(found.upper)) + of_parts * largest;
+      if (!finite(rounding)) return found;
       if (only_finite) continue;
       if (found.lower > found.upper + rounding) return found;
       if (found.lower > rounding) return {Kind::pulls, 0, depth, found.lower, found.upper};

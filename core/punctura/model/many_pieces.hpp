@@ -12,6 +12,9 @@ namespace punctura {
 
 /// A band of at most N pieces. The breaks have the same sides as those of PiecewiseBand.
 ///
+/// With more than N, all pieces are NaN: no force of a part of them would be right. In a run that is a fault, which
+/// ends the force in the same tick; a program that aborts would leave a device with its last force.
+///
 /// It is slower than PiecewiseBand for a handful of pieces and faster for many: the time grows with the pieces in use.
 template <typename Scalar_, std::size_t N>
 struct ManyPieces {
@@ -35,6 +38,7 @@ struct ManyPieces {
   /// Adds a break and the piece behind it. A piece of length 0 is replaced.
   constexpr void add(const Scalar& at, const Piece& behind) noexcept {
     if (count > 1 && !(breaks[count - 2] < at)) --count;
+    if (count == N) return spoil();
     breaks[count - 1] = at;
     pieces[count++] = behind;
   }
@@ -43,6 +47,7 @@ struct ManyPieces {
     std::size_t i = 0;
     while (i + 1 < count && breaks[i] < at) ++i;
     if (i + 1 < count && !(at < breaks[i])) return;
+    if (count == N) return spoil();
     for (std::size_t k = count; k > i; --k) pieces[k] = pieces[k - 1];
     for (std::size_t k = count - 1; k > i; --k) breaks[k] = breaks[k - 1];
     breaks[i] = at;
@@ -71,6 +76,12 @@ struct ManyPieces {
   constexpr const Piece& piece(std::size_t i) const noexcept { return pieces[i]; }
   constexpr const Scalar& end(std::size_t i) const noexcept { return breaks[i]; }  ///< of piece i, m
   constexpr std::size_t last() const noexcept { return count - 1; }                ///< index of the last piece
+
+ private:
+  [[gnu::noinline, gnu::cold]] constexpr void spoil() noexcept {
+    const Quadratic<Scalar> none{Scalar(std::numeric_limits<Lane<Scalar>>::quiet_NaN())};
+    pieces.fill({Scalar(0), none, none});
+  }
 };
 
 }  // namespace punctura

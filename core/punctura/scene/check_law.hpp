@@ -15,7 +15,10 @@ inline std::string words_for(const LawFlaw& flaw) {
   const std::string depth = decimal_text(flaw.depth) + " m", lower = decimal_text(flaw.lower) + " N";
   switch (flaw.kind) {
     case LawFlaw::Kind::none: break;
-    case LawFlaw::Kind::in_front: return "its band must be 0 in front of the first break";
+    case LawFlaw::Kind::in_front:
+      if (flaw.lower != flaw.lower)
+        return "its band is not a number in front of the first break, as where a ManyPieces has too many pieces";
+      return "its band must be 0 in front of the first break";
     case LawFlaw::Kind::behind: return "its edges must be constant behind the last finite break";
     case LawFlaw::Kind::order: return "its break " + std::to_string(flaw.at) + " must be at " + depth + " or deeper";
     case LawFlaw::Kind::band:

@@ -253,6 +253,36 @@ TEST_CASE("a law derived from one of the package is checked in a run, alone and 
   CHECK(has_flaw(among, DerivedMixedLaw::Pieces(std::in_place_index<0>, bad)));
 }
 
+TEST_CASE("more pieces than a ManyPieces holds are a fault in the same tick, and a problem of a scene") {
+  struct OverfullLaw {
+    using Scalar = double;
+    using Memory = double;  // s
+    bool splits;
+    ManyPieces<double, 4> pieces(double, const Memory& time) const noexcept {
+      ManyPieces<double, 4> all;
+      for (int i = 0; i < 3; ++i) all.add(i * 1e-3, holds);
+      if (time > 1 && splits) all.split(1.5e-3);
+      if (time > 1 && !splits) all.add(3e-3, holds);
+      all.add(2e-3, holds);  // replaces the last piece
+      return all;
+    }
+    bool advance(Memory& time, double, double dt) const noexcept { return time += dt, true; }
+  };
+  for (const bool splits : {false, true}) {
+    auto step = build<double>(paper_scene(1e-3), [&](auto&&...) { return OverfullLaw{splits}; });
+    step.arm();
+    double largest = 0;
+    for (std::uint64_t k = 0; k < 2400; ++k) {
+      const Snapshot& s = step.step(reading(k, 2e-3 - 10e-3 * static_cast<double>(k) / 1600));
+      largest = std::max(largest, to_vector(s.force).norm());
+      if (k < 1599) CHECK(s.fault == Fault::none);
+    }
+    CHECK(step.fault() == Fault::non_finite_force);
+    CHECK(largest == doctest::Approx(0.3));
+    CHECK(words_for(find_flaw(OverfullLaw{splits}.pieces(1, 2))).find("too many pieces") != std::string::npos);
+  }
+}
+
 TEST_CASE("an upper edge below 0 N, which pushes the needle out as in K06, is no fault") {
   auto step = build<double>(paper_scene(1e-3), [&](auto&&...) { return FailingLaw{with_band({-0.3}, {-0.1})}; });
   for (std::uint64_t k = 0; k < 2400; ++k) step.step(reading(k, 2e-3 - 10e-3 * static_cast<double>(k) / 1600));
@@ -295,6 +325,9 @@ TEST_CASE("a law that is none is a problem of the scene, with its membrane and t
     CHECK(line.starts_with("membrane[0]: the law: its "));
     CHECK(line.find(words) != std::string::npos);
   };
+  for (const char* flaw : {"not finite", "not 0 in front of the first break", "not constant behind the last",
+                           "above the upper one", "above 0 N", "in front of the surface", "out of order", "too many"})
+    CHECK(std::string(describe(Fault::non_finite_force)).find(flaw) != std::string::npos);
   faulty({{0, 1e-3}, {{level, good, level}}}, "0 in front of the first break");
   faulty({{0, 1e-3}, {{{}, level, good}}}, "constant behind the last finite break");
   faulty({{0, infinity}, {{{}, {0, {-0.1, 1000}, {0.1}}, level}}}, "constant behind the last finite break");

@@ -13,10 +13,12 @@ struct Cut {
 struct CutLaw {
   using Scalar = double;
   using Memory = Cut;
-  PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
+  constexpr PiecewiseBand<double, 3> pieces(double = 1, const Memory& memory = {}) const noexcept {
     return {{0, memory.cut}, {{{}, {}, {memory.cut, {-1, 0, 0}, {}}}}};
   }
-  bool advance(Memory& memory, double depth) const noexcept { return depth > memory.cut && (memory.cut = depth, true); }
+  constexpr bool advance(Memory& memory, double depth) const noexcept {
+    return depth > memory.cut && (memory.cut = depth, true);
+  }
 };
 
 }  // namespace punctura::test
