@@ -27,11 +27,12 @@ struct LawFlaw {
 };
 
 /// The same flaws, as the fault of a run names them: it cannot say which one it was, nor where.
-inline constexpr const char* flawed_in_run =
-    "the model gave a force that is not a number, or its law has a band that is not finite, not 0 in front of the "
-    "first break, not constant behind the last one, or whose lower edge is above the upper one or above 0 N, or it has "
-    "breaks in front of the surface, out of order or too many: "
-    "correct the law if it is your own; otherwise please report the scene and the recording";
+constexpr const char* flawed_in_run() noexcept {
+  return "the model gave a force that is not a number, or its law has a band that is not finite, not 0 in front of the "
+         "first break, not constant behind the last one, or whose lower edge is above the upper one or above 0 N, or "
+         "it has breaks in front of the surface, out of order or too many: "
+         "correct the law if it is your own; otherwise please report the scene and the recording";
+}
 
 /// The first flaw. only_finite: of a scene's own law, whose edges cross by rounding alone.
 template <typename Pieces>

@@ -46,7 +46,7 @@ constexpr const char* describe(Fault fault) noexcept {
       return "a tick came too late, or the computer slept: "
              "close programs that keep the processor busy, keep the computer awake, then reset";
     case Fault::clock: return "the clock went back between two ticks: the back-end must use one that never does";
-    case Fault::non_finite_force: return flawed_in_run;
+    case Fault::non_finite_force: return flawed_in_run();
     case Fault::device: return "the device reported a fault of its own: check its cable and its power, then reset";
     case Fault::thumb:
       return "the device under the thumb has a fault of its own or sends nothing: check its connection, then reset";
