@@ -8,7 +8,8 @@ else()
   target_compile_options(punctura_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
   # GCC 12 gives wrong warnings for operator+ of std::string and a vector of strings at -O3 (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-    target_compile_options(punctura_warnings INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+    target_compile_options(punctura_warnings INTERFACE
+      -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
   endif()
   # In our tests, warnings are errors with the tested compilers. Other compilers can have new warnings.
   if(PUNCTURA_TESTS)
