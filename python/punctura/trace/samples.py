@@ -129,7 +129,7 @@ def smeared(*air: Array) -> int:
     count = sum(map(len, parts))
     if count < AIR - 1:
         return 0
-    most = min(min(map(len, parts)) // 2, count // 6)
+    most = min(min(map(len, parts)) // 2, count // 5)
     alike = _alike(parts, most)
     if not alike[0] > 0:
         return 0
