@@ -19,7 +19,7 @@ from punctura.trace.ends import NO_AIR, without_zero
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
-IMPOSSIBLE = ("air_steps", "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
+IMPOSSIBLE = ("air_steps", NO_AIR, "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
 UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 
 
