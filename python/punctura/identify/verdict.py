@@ -6,6 +6,7 @@ import numpy as np
 
 from punctura._core import tip_length
 from punctura.identify.air_noise import AirNoise
+from punctura.identify.explained import SEEN
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
@@ -21,6 +22,7 @@ NEVER = (
 )
 WITHDRAWAL = ("withdrawal", "record the withdrawal too: it shows the friction without the tip")
 BEFORE = ("air", "begin well before contact")
+BEHIND = ("air behind", "end outside the tissue")
 TURN = ("", "turn a second time inside the tissue, at another speed")
 AGAIN = ("second", "insert a second time at the same place")
 REST = ("hold", "rest for 10 s inside the tissue")
@@ -54,16 +56,14 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
     "play": (TURN,),
     "slack": (TURN,),
     "slide_friction": (BEFORE,),
-    "slide_friction_out": (("air behind", "end outside the tissue"),),
+    "slide_friction_out": (BEHIND,),
     "slide_friction_before": (BEFORE,),
     "slide_way": (("", "turn in air, slowly"),),
     "cable_stiffness": (BEFORE,),
-    "drift": (BEFORE, ("air behind", "end outside the tissue")),
+    "drift": (BEFORE, BEHIND),
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
-
-SEEN = 0.002  # of the greatest force: a smaller drift does not matter
 PERIODS, FINE = 3, 4  # of a sine in the trace, at least; rates for each period more
 ONE_SINE = 0.6  # of the squares beside white noise: a random walk has up to 0.4 in one sine
 DRIFTING = 1.5  # times the other noise: with more slow noise, intervals of least squares are too narrow

@@ -145,6 +145,12 @@ def _ends(trace: Trace, deep: float) -> list[slice]:
     return [end for end in ends if end.stop - end.start >= FEWEST]
 
 
+def _moves_at_both(trace: Trace, ends: Sequence[slice]) -> bool:
+    """Whether there are two ends, and the last one shows enough of the way of the first one to tell a cable."""
+    ways = [float(np.ptp(trace.depth[end])) for end in ends]
+    return len(ways) == 2 and ways[1] > BOTH * ways[0]
+
+
 def _resting(trace: Trace, columns: Array, deep: float) -> _Found | None:
     """Friction that ends in a rest, and a cable (n, k), if they and noise are all above the depth `deep`, m.
 
@@ -157,9 +163,8 @@ def _resting(trace: Trace, columns: Array, deep: float) -> _Found | None:
     own = np.zeros((len(trace), len(ends)))
     for i, end in enumerate(ends):
         own[end, i] = 1.0
-    ways = [float(np.ptp(trace.depth[end])) for end in ends]
     told = [any(np.ptp(column[end]) > 0 for end in ends) for column in columns.T]
-    told[-1] = len(ends) == 2 and ways[1] > BOTH * ways[0]
+    told[-1] = _moves_at_both(trace, ends)
     rows = np.concatenate([np.arange(end.start, end.stop) for end in ends])
     longest = 0.0 if trace.time is None else max(float(np.ptp(trace.time[end])) for end in ends)
     found = _solved(trace, rows, columns, own, [i for i, one in enumerate(told) if one], longest)
@@ -204,7 +209,7 @@ class _Keeping:
         over = min(finer, key=lambda one: self._left(self._slide.kept(one), rows))
         friction, before = self._slide.kept(over)
         longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
-        told = [0, 1] if np.ptp(trace.depth[ends[1]]) > BOTH * np.ptp(trace.depth[ends[0]]) else [0]
+        told = [0, 1] if _moves_at_both(trace, ends) else [0]
         known, own = np.column_stack((friction, self._cable)), np.column_stack((before, self._one))
         found = _solved(trace, rows, known, own, told, longest)
         if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
