@@ -1,6 +1,7 @@
 """What a hand feels of one stimulus, simulated or recorded, and the scene for a wanted number of newtons."""
 
 import math
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -27,7 +28,7 @@ from punctura.compare.run import Run
 from punctura.compare.statistics import FELT_S, Finite, statistics
 from punctura.events import crossing
 from punctura.live import stroke_ends
-from punctura.live.force_words import LIMIT_WORDS
+from punctura.live.force_words import CUTS, LIMIT_WORDS
 from punctura.record import open_recording
 from punctura.ticks import COMMAND_SCENE, Ticks
 
@@ -99,7 +100,17 @@ def simulated(scene: Scene, membrane: int, seed: int | None = None) -> Felt:
 
 
 class Spoilt(Exception):
-    """An interval was not felt as planned: the text says why. The trial must be repeated."""
+    """An interval was not felt as planned, and the trial must be repeated. The text tells the experimenter why."""
+
+    def __init__(self, word: str, why: str) -> None:
+        """word: the key of what the participant reads, in WordsTable."""
+        super().__init__(why)
+        self.word = word
+
+
+def faulted(fault: Fault) -> Spoilt:
+    """Of a run that the fault has ended."""
+    return Spoilt("fault", re.sub(",? then reset.*", "", describe(fault)))  # "Go on" does it
 
 
 def felt_of(recording: Path, intervals: Sequence[Scene], membrane: int) -> list[Felt]:
@@ -108,7 +119,7 @@ def felt_of(recording: Path, intervals: Sequence[Scene], membrane: int) -> list[
     changes = np.flatnonzero(ticks.commands & COMMAND_SCENE).tolist()
     ends = [0, *changes, len(ticks)]
     if len(ends) != len(intervals) + 1:
-        raise Spoilt(f"the recording has {len(ends) - 1} of {len(intervals)} intervals")
+        raise Spoilt("failed", f"the recording has {len(ends) - 1} of {len(intervals)} intervals")
     return [
         _felt(ticks[start:end], one, membrane, READY_S * (start > 0))
         for (start, end), one in zip(pairwise(ends), intervals, strict=True)
@@ -120,18 +131,19 @@ def _felt(ticks: Ticks, scene: Scene, membrane: int, ready: float) -> Felt:
     stroke = slice(run.touch, None)
     limits = {Limit(int(one)).name for one in np.unique(ticks.limit[stroke])} - {"none"}
     if lost := int(ticks["lost"].sum()):
-        raise Spoilt(f"the computer was too busy ({lost} ticks were lost)")
+        raise Spoilt("failed", f"the computer was too busy ({lost} ticks were lost): close other programs")
     if (faults := ticks.fault[ticks.fault != 0]).size:
-        raise Spoilt(describe(Fault(int(faults[0]))))
+        raise faulted(Fault(int(faults[0])))
     if run.depth[0] > 0 or run.time[run.touch] - run.time[0] < ready:
-        raise Spoilt("the needle was in the tissue before the interval began")
-    if limits - {"ramp"}:
-        raise Spoilt(f"the force was cut: {', '.join(LIMIT_WORDS[name] for name in sorted(limits))}")
+        raise Spoilt("early", "the needle was in the tissue before the interval began")
+    if cuts := limits & {*CUTS}:
+        why = " and ".join(LIMIT_WORDS[name] for name in sorted(cuts))
+        raise Spoilt("cut", f"the {why} cut the force: let the motors cool, or plan a study with less force")
     if limits or (ticks.state[stroke] != ServoState.active).any():
-        raise Spoilt("the force was not on yet: wait a moment in front of the tissue")
+        raise Spoilt("weak", "the needle touched the tissue before the force was on")
     through = crossing(scene, membrane, 1.0).through
     if ticks.depth[:, membrane].max() < through:
-        raise Spoilt("the needle did not go through the tissue")
+        raise Spoilt("short", "the needle did not go through the tissue")
     return felt(run, membrane, float(ticks.force_scale[-1]))
 
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from pydantic import BaseModel
 
 from punctura import Phase, PuncturaError, Scene
-from punctura._core import Fault, ServoState, describe
+from punctura._core import Fault, ServoState
 from punctura.defects import explain
 from punctura.errors import sentence_of
 from punctura.events import crossing
@@ -25,7 +25,7 @@ from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import DiskFullError, agreed, recordings
 from punctura.perception.session import Session as Answers
-from punctura.perception.stimulus import READY_S, Felt, felt_of
+from punctura.perception.stimulus import READY_S, Felt, Spoilt, faulted, felt_of
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
 from punctura.studio.loaded import Loaded
@@ -34,7 +34,7 @@ from punctura.studio.wire.messages import AnswerKey, SittingMessage
 from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
-ENDED = "it was interrupted"
+ENDED = Spoilt("failed", "the ticks have ceased: check the connection of the device")
 MEND = "mend this (on a full disk, make space)"
 NOISE_S = 20
 Then = Callable[[str], None]  # gets an answer
@@ -137,10 +137,9 @@ class PerceptionSitting:
     def _begin(self) -> None:
         """The run of a trial."""
         studio = self._studio
-        fault = studio.run.fault  # of the run between the trials
-        if fault != Fault.none or not studio.arming.armed:  # only a person turns it on again, docs/safety.md
-            words = self._words.fault.format(why=describe(fault)) if fault != Fault.none else self._words.off
-            self._say(words, GO, lambda _: self._armed())
+        if why := self._lost(studio.run.fault):  # only a person turns it on again, docs/safety.md
+            self._tell(f'{why}; "{self._words.go_on}" at the page turns the force on again')
+            self._say(f"{getattr(self._words, why.word)} {self._words.back}", GO, lambda _: self._armed())
             return
         self._attempt += 1
         self._interval = 0
@@ -153,6 +152,11 @@ class PerceptionSitting:
             self._pause(bad, lambda _: self._armed())
         else:
             self._explore()
+
+    def _lost(self, fault: Fault) -> Spoilt | None:
+        """Why there is no force, if there is none. fault: of the run."""
+        off = None if self._studio.arming.armed else Spoilt("off", "the force was turned off")
+        return off if fault == Fault.none else faulted(fault)
 
     def _armed(self) -> None:
         if self._studio.run.fault != Fault.none:
@@ -197,26 +201,25 @@ class PerceptionSitting:
         try:
             self._studio.edit(self._scene())
         except Exception as bad:  # also a defect: the trial is repeated, and the studio stays
-            self._finish(explain(bad))
+            self._finish(Spoilt("failed", explain(bad)))
         else:
             self._explore()
 
-    def _finish(self, reason: str = "") -> None:
+    def _finish(self, reason: Spoilt | None = None) -> None:
         """Ends the run of the trial. reason: why the trial must be repeated, if it must."""
         self._say(self._words.wait)
         recording, scenes = self._folder / f"{self._name()}.parquet", [one.scene for one in self._trial.intervals]
 
         def finished(_: str, status: RecorderStatus) -> None:  # in a thread of its own
-            found: list[Felt] = []
-            why = reason or status.words
-            try:
-                found = [] if why else felt_of(recording, scenes, self._protocol.membrane)
-            except Exception as bad:
-                why = explain(bad)
-            spoilt = partial(self._again, why)
+            then = partial(self._again, reason or Spoilt("failed", status.words))
             if status.trouble and not reason:  # the disk's
-                spoilt = partial(self._pause, status.fact, lambda _: self._armed())
-            self._studio.jobs.post(spoilt if why else lambda: self._ask(found))
+                then = partial(self._pause, status.fact, lambda _: self._armed())
+            elif not (reason or status.words):
+                try:
+                    then = partial(self._ask, felt_of(recording, scenes, self._protocol.membrane))
+                except Exception as bad:
+                    then = partial(self._again, bad if isinstance(bad, Spoilt) else Spoilt("failed", explain(bad)))
+            self._studio.jobs.post(then)
 
         if not self._studio.recording:  # the ticks have ceased, and ended the run
             self._again(reason or ENDED)
@@ -231,10 +234,12 @@ class PerceptionSitting:
         studio.defects.guard(idle)
         studio.run.loop.pause()
 
-    def _again(self, why: str) -> None:
+    def _again(self, why: Spoilt) -> None:
+        assert self._answers
         self._studio.run.loop.pause()  # the run may be the one before, which began again
-        words = self._words.repeated.format(why=why.rstrip(". "))
-        self._say(f"{words} {self._words.wait}", GO, lambda _: self._armed())
+        self._tell(f"trial {self._answers.course.at + 1} of {self._participant} is repeated: {why}")
+        words = getattr(self._words, why.word)
+        self._say(f"{words} {self._words.repeated} {self._words.wait}", GO, lambda _: self._armed())
 
     def _pause(self, why: Exception | str, then: Then) -> None:
         """The participant calls the experimenter, whose terminal has the reason."""
@@ -298,8 +303,7 @@ class PerceptionSitting:
         elif self._touched and not self._was_through and outside:
             self._touched = False
             self._say(f"{self._words.deeper} {self._sentence()}", covered=not self._protocol.file.picture)
-        fault = Fault(int(ticks.fault[-1]))
-        why = describe(fault) if fault != Fault.none else "the force was turned off" * (not self._studio.arming.armed)
+        why = self._lost(Fault(int(ticks.fault[-1])))
         if why or (self._was_through and outside):
             self._over = True
             self._studio.jobs.post(partial(self._finish, why) if why else self._explored)

@@ -186,7 +186,8 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
             now.setattr(server.session, "edit", lambda _: [][0])
             person.answers("Go on")
             person.goes_through("interval 1")
-            person.reads("repeated: a defect")
+            person.reads("Something went wrong, but not by you.")
+            assert ": a defect" in TOLD[-1]
 
         def inside(loaded: Loaded) -> None:
             monkeypatch.undo()
@@ -199,7 +200,7 @@ def test_practice_has_remarks_and_no_stimulus_changes_in_the_tissue(
         person.answers("Go on")
         person.goes_through("interval 1")
         person.goes_through("interval 2")
-        person.reads("repeated: the needle was in the tissue before the interval began")
+        person.reads("The needle was in the tissue too early. The trial is repeated.")
         person.answers("Go on")
         for wrong, remark in ((False, "Right. "), (True, "No, it was another one. ")):
             person.goes_through("interval 1")
@@ -218,23 +219,26 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
     left, others = (folder / "out" / f"P01-0000-{name}.parquet" for name in ("7", "0005-1"))  # P01's, P01-0000's
     for file in (left, others):
         file.write_bytes(b"")
-    with sat(folder, YES, ForceLimits(max_force=0.2)) as (person, server):
+    words = '[words]\nfault = "Das Gerät hält."\n'
+    with sat(folder, YES + words, ForceLimits(max_force=0.2)) as (person, server):
         person.reads("The session begins.")
         person.answers("Go on")
         person.goes_through(depth=0.001)
         person.goes_through("Not through yet: push deeper.")
-        person.reads("repeated: the force was cut: peak limit. Hold")
+        person.reads("The device could not give the whole force: push more slowly, and rest a moment. The trial is")
+        why = "the peak limit cut the force: let the motors cool, or plan a study with less force"
+        assert TOLD[-1] == f"trial 1 of P01 is repeated: {why}"
         person.answers("Go on")
         person.reads("push")
         assert {file.name[:10] for file in (folder / "out").glob("*.parquet*")} == {"P01-0000-2", others.name[:10]}
         assert person.page.ask(do="trip_fault")["ok"]
-        person.reads("repeated: ")
+        person.reads("Das Gerät hält.")
         server.session.bench.settings = Settings("simulated", limits=RunLimits(gate=LATE_ALLOWED))
         person.answers("Go on")
         person.reads("push")
         server.session.run.loop.pause()  # as without the dead-man's button
         person.goes_through()
-        person.reads("repeated: the force was not on")
+        person.reads("The force was not on yet: wait a moment before you push. The trial is repeated. Hold")
         full, write = OSError(errno.ENOSPC, "No space left"), AppendFile.write
         with monkeypatch.context() as now:
             now.setattr("punctura.record.writer.LAST_TRIES_S", 0.1)
@@ -269,7 +273,8 @@ def test_a_file_that_cannot_be_deleted_and_a_defect_lead_to_go_on_and_move_no_an
         with monkeypatch.context() as now:
             now.setattr("punctura.studio.sitting.felt_of", lambda *_: [][0])
             person.goes_through()
-            person.reads("repeated: a defect")
+            person.reads("Something went wrong, but not by you.")
+            assert ": a defect" in TOLD[-1]
         person.answers("Go on")
         person.goes_through()
         person.reads("Did it pop?")
@@ -295,11 +300,12 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
         person.page.wait(lambda: server.session.run.fault != Fault.none)
         assert not any(person.page.ask(do=wish)["ok"] for wish in ("arm", "reset"))  # no force between the trials
         person.answers("Go on")
-        person.reads("The force is off: the device")
+        person.reads("The device has stopped its force. If that happens again, please call the experimenter. The force")
+        assert TOLD[-1].endswith('its calibration and the unit, m; "Go on" at the page turns the force on again')
         person.answers("Go on")
         person.reads("Hold the needle")
         assert person.page.ask(do="pause")["ok"]
-        person.reads("repeated: the force was turned off")
+        person.reads("The force was turned off. The trial is repeated.")
         with monkeypatch.context() as now:
             now.setattr(Run, "start", lambda _: raised(DeviceError("cannot open")))
             person.answers("Go on")
@@ -310,12 +316,12 @@ def test_after_every_loss_of_the_force_there_is_a_way_on(tmp_path: Path, monkeyp
         with monkeypatch.context() as now:
             now.setattr(Run, "start", lambda _: raised(DeviceError("cannot open")))
             assert person.page.ask(do="trip_fault")["ok"]
-            person.reads("repeated: the device")
+            person.reads("The device has stopped its force.")
         person.answers("Go on")
         person.reads("push")
         with StudioClient(server.address.url) as onlooker:
             assert onlooker.ask(do="pause")["ok"] and not onlooker.ask(do="trip_fault")["ok"]
-        person.reads("repeated: the force was turned off")
+        person.reads("The force was turned off. The trial is repeated.")
         assert not [said for said in person.page.of("notice") if "still off" in said["text"]]  # "Go on" turns it on
     assert server.session.failure is None
 
