@@ -169,24 +169,28 @@ export class Needle {
 
   /**
    * Shows blood at the bore's mouth and in the hub, and moves the plunger, as at the source's moment. A replay that
-   * begins or jumps shows what came before it. Returns whether the picture changes.
+   * begins or jumps shows what came before it. Returns whether the picture changes: not by a jump alone, which is also
+   * a late frame.
    */
   follow(source: Source, moment: Moment, scene: SceneView): boolean {
     const laws = source.laws.value;
-    const jumps = this.blood.jumps(moment.time);
-    const steps = jumps ? LASTS / STEP : 0;
+    const before = this.shown();
+    const steps = this.blood.jumps(moment.time) ? LASTS / STEP : 0;
     for (let k = steps; k > 0; k--) {
       const tick = moment.tick - Math.round(k * STEP * scene.rate);
       if (tick >= source.history.first && this.past.read(source, tick)) this.step(this.past, scene, laws);
     }
-    return this.step(moment, scene, laws) || jumps;
+    this.step(moment, scene, laws);
+    return this.shown() !== before;
   }
 
-  private step(moment: Moment, scene: SceneView, laws: readonly LawCurve[]): boolean {
+  private shown(): string {
+    return [this.content, this.plunger, this.blood.value, this.pressed.value].join();
+  }
+
+  private step(moment: Moment, scene: SceneView, laws: readonly LawCurve[]): void {
     const { content, open } = atTip(moment, scene, laws);
-    const before = this.content;
     this.content = content;
-    const pushed = this.plunger;
     this.plunger = plungerOf(moment);
     const bleeds = content === "blood";
     this.mouth.color.copy(bleeds ? this.theme.color("blood") : EMPTY);
@@ -201,7 +205,6 @@ export class Needle {
     const moved = this.pressed.step(goal, moment.time, yields ? YIELDS * open : 100, true);
     if (filled) this.hub.show(this.blood.value);
     if (moved) this.syringe.show(this.pressed.value);
-    return filled || moved || content !== before || this.plunger !== pushed;
   }
 
   /** A ring at every centimetre from the tip, as on a Tuohy needle. */

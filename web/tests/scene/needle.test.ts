@@ -40,3 +40,15 @@ it("a replay that begins after the flash-back has its blood in the hub, and one 
   expect(bloodAt(3100, 900)).toBe(0);
   expect(bloodAt(3990)).toBeLessThan(bloodAt(3100));
 });
+
+it("a frame that comes late does not change the picture of a needle at rest", () => {
+  const source = new Source("live", false, 5000);
+  source.history.push(batch(0, 4000, 3, { axis: () => [0, -1, 0], phase: () => [OUTSIDE, OUTSIDE, OUTSIDE] }));
+  const needle = new Needle(theme);
+  const follows = [1000, 3000].map((tick) => {
+    const moment = new Moment();
+    moment.read(source, tick);
+    return needle.follow(source, moment, { ...plainScene, rate: 1000 });
+  });
+  expect(follows.at(-1)).toBe(false);
+});
