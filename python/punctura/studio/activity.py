@@ -9,8 +9,9 @@ from pydantic import BaseModel
 
 from punctura import Scene
 from punctura.errors import sentence_of
-from punctura.exercise import Attempt, Exercise, ResultStore
-from punctura.exercise.result import Status
+from punctura.exercise import Attempt, Exercise
+from punctura.exercise.result import Result, Status
+from punctura.studio.catalog import DRAFT
 from punctura.studio.hand import Heard
 from punctura.studio.pump import Publisher
 from punctura.studio.wire.messages import ExerciseStatus, Notice
@@ -122,6 +123,13 @@ class Activities:
             self._out.send(Notice(text=outcome.remark))
 
 
+class Results(Protocol):
+    """Where results go."""
+
+    def save(self, result: Result) -> Result:
+        """Returns the result with its name. Raises OSError."""
+
+
 LINGER_S = 1.0  # the recording goes on for this long after the decision and the last overshoot
 
 
@@ -140,12 +148,12 @@ class ExerciseActivity:
         exercise: Exercise,
         person: str,
         recording: str,
-        results: ResultStore | None,
+        results: Results,
         group: str = "",
         second_device: bool = False,
         heard: Heard | None = None,
     ) -> None:
-        """recording: the name of the run's recording. results: where the result is saved, if at all. group: a class.
+        """recording: the name of the run's recording. results: where the result is saved. group: a class.
         second_device: the thumb is on one. heard: when the page that moves the hand was heard."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
         self._group, self._second_device = group, second_device
@@ -179,16 +187,13 @@ class ExerciseActivity:
         result = self._attempt.finish(self._person, self._recording, group=self._group)
         if not self._attempt.over and result.metrics.entries == 0:
             return Outcome(self._status(running=False))
-        if self._results is None:
-            verdict = " ".join(
-                [f"{result.title}: {result.verdict}.", *result.reasons, "The result of a draft is not kept."]
-            )
-            return Outcome(self._status(running=False), remark=verdict)
         try:
             name = self._results.save(result).name
         except OSError as error:
             return Outcome(self._status(running=False), remark=f"The result cannot be saved: {sentence_of(error)}")
-        return Outcome(self._status(running=False, result=name), f"The result of the last exercise is saved as {name}.")
+        verdict = f"{result.title}: {result.verdict}."
+        notice = verdict if name == DRAFT else f"The result of the last exercise is saved as {name}."
+        return Outcome(self._status(running=False, result=name), notice)
 
     def _status(self, running: bool, result: str = "") -> ExerciseStatus:
         status = self._attempt.status

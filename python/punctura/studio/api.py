@@ -20,7 +20,7 @@ from punctura.exercise.xapi import to_xapi
 from punctura.extras import MissingPackageError
 from punctura.record import RecordingError, open_recording
 from punctura.record.save_as import export_pieces
-from punctura.studio.catalog import scene_outlines
+from punctura.studio.catalog import DRAFT, scene_outlines
 from punctura.studio.computing import Download, LabError, Line, json_of
 from punctura.studio.lab import Lab
 from punctura.studio.limits import MOST_EXPORTS
@@ -187,14 +187,17 @@ class Api:
         return json_of(self._results.all(*_of_whom(request)))
 
     def result(self, request: Request) -> Response:
-        return json_of(self._results.load(_name(request)))
+        return json_of(self._result(_name(request)))
+
+    def _result(self, name: str) -> Result:
+        return (name == DRAFT and self._session.exercises.drafts.last) or self._results.load(name)
 
     def delete_result(self, request: Request) -> Response:
         self._results.delete(_name(request))
         return Response(status_code=204)
 
     def download_result(self, request: Request) -> Response:
-        result = self._results.load(_name(request))
+        result = self._result(_name(request))
         return self._written([result], result.name, request)
 
     def download_results(self, request: Request) -> Response:

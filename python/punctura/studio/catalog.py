@@ -12,6 +12,7 @@ from punctura.errors import MISSING, ConfigurationError, Problem
 from punctura.exercise import (
     Attempt,
     Exercise,
+    Result,
     cannot_show,
     exercise_names,
     exercises,
@@ -99,6 +100,16 @@ class ExerciseOverview(Part):
     note: str = ""  # what is judged in another way here: the plunger, if the thumb is a key
 
 
+class DraftResults:
+    """Keeps the last result only: the next draft has the same name and may ask for something else."""
+
+    last: Result | None = None
+
+    def save(self, result: Result) -> Result:
+        self.last = result.model_copy(update={"name": DRAFT})
+        return self.last
+
+
 class Exercises:
     """The exercises of the package, and files from the command line.
 
@@ -115,6 +126,7 @@ class Exercises:
         self._files: dict[str, Path] = {}
         self._kept: dict[Path, tuple[tuple[Stamp, Hands], ExerciseOverview]] = {}
         self._titles: dict[str, str] = {}
+        self.drafts = DraftResults()
         self.warnings: list[tuple[Path, Problem]] = []  # of the files when the studio started
         for given in files:
             if given in exercise_names():

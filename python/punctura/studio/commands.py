@@ -191,8 +191,7 @@ def _prepare_trial(request: ask.TryExercise, session: Session) -> Job:
 def _activity(
     request: ask.StartExercise | ask.TryExercise, exercise: Exercise, recording: str, session: Session
 ) -> ExerciseActivity:
-    """Results of a draft are not kept: the next draft has the same name and may ask for something else."""
-    results = None if exercise.name == DRAFT else session.results
+    results = session.exercises.drafts if exercise.name == DRAFT else session.results
     second = session.bench.settings.second is not None
     return ExerciseActivity(exercise, request.person, recording, results, request.group, second, session.heard)
 

@@ -10,6 +10,7 @@ from punctura.exercise import ResultStore, load_exercise
 from punctura.exercise.result import Metrics, Result
 from punctura.simulation import RecordedMotion
 from punctura.studio.activity import ExerciseActivity
+from punctura.studio.catalog import DraftResults
 from punctura.studio.experts import Experts
 from recorded import recorded
 from runs import cut
@@ -19,7 +20,7 @@ from .test_studio_making import TABLES, names
 BLIND_LEGS = (0.3, 0.0), (8.0, 17.5), (4.0, 17.5)
 
 
-def told(name, legs, results=None):
+def told(name, legs, results):
     """The messages of an attempt by a simulated hand, and how it ended."""
     exercise = load_exercise(name)
     activity = ExerciseActivity(exercise, "Ada", "", results)
@@ -44,19 +45,21 @@ def test_a_blind_exercise_tells_nothing_of_the_needle_before_it_is_decided(tmp_p
     assert outcome.message.result
 
 
-def test_the_result_of_a_draft_is_told_but_not_kept():
-    _, outcome = told("blind", BLIND_LEGS)
-    assert outcome.message.result == ""
-    assert outcome.remark.startswith("Blind: passed. ") and outcome.remark.endswith("is not kept.")
+def test_the_result_of_a_draft_is_told_if_the_next_run_has_begun():
+    _, outcome = told("blind", BLIND_LEGS, DraftResults())
+    assert (outcome.message.result, outcome.notice) == ("draft", "Blind: passed.")
 
 
-def test_a_draft_has_no_result_and_no_experts_run(page, served):
+def test_the_last_result_of_a_draft_is_shown_but_not_kept_and_it_has_no_experts_run(page, served):
     assert page.ask(do="try_exercise", tables=TABLES, person="Ada")["ok"]
     page.wait(lambda: page.of("exercise")[-1]["running"])
     page.target([0.0, -2e-3, 0.0], [0.0, -1.0, 0.0])
     page.wait(lambda: any(event["what"] == "touch" for event in page.of("event")))
     assert page.ask(do="end_exercise")["ok"]
-    page.wait(lambda: any("is not kept" in notice["text"] for notice in page.of("notice")))
+    page.wait(lambda: page.of("exercise")[-1]["result"] == "draft")
+    result = page.json("/api/results/draft")
+    assert (result["name"], result["exercise"], result["person"]) == ("draft", "draft", "Ada")
+    assert result["coaching"]["change"] and result["recording"]
     assert page.json("/api/results") == []
     refused = page.ask(do="set_expert", exercise="draft", recording="")
     assert not refused["ok"] and "save the exercise first" in refused["text"]

@@ -7,7 +7,7 @@ import { resultPath } from "../wire/api.ts";
 import type { ExerciseOverview, ProblemPart, Result } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
-import { expertChoice } from "./exercises/expert.ts";
+import { DRAFT, expertChoice } from "./exercises/expert.ts";
 import { goalList } from "./exercises/goals.ts";
 import { exerciseMaker } from "./exercises/maker/maker.ts";
 import { openPart } from "./exercises/open.ts";
@@ -17,8 +17,6 @@ import { openResult } from "./exercises/result_dialog.ts";
 import { showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
 import type { Opens } from "./tabs.ts";
-
-const DRAFT = "draft"; // the studio's name of an exercise that is tried before it is saved
 
 /** The list of exercises, the running one, and past results. */
 export const exercisesPanel: Panel = (host, app) => {

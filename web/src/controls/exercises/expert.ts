@@ -8,6 +8,9 @@ import { words } from "../editor/problems.ts";
 import { fetchSource } from "../recordings/fetch_source.ts";
 import { type Trace, traceOf } from "./trace.ts";
 
+/** The studio's name of an exercise that is tried before it is saved, and of its last result, which is not kept. */
+export const DRAFT = "draft";
+
 /** A button that names the result's recording as the expert's run of its exercise, or takes that back. */
 export function expertButton(
   app: App,
@@ -15,7 +18,7 @@ export function expertButton(
   exercise: ExerciseOverview | null,
   changed: () => void,
 ): HTMLElement[] {
-  if (!exercise || !result.recording || !app.control.value.you) return [];
+  if (!exercise || exercise.name === DRAFT || !result.recording || !app.control.value.you) return [];
   const is = exercise.expert === result.recording;
   const act = async (): Promise<void> => {
     made.disabled = true;

@@ -8,7 +8,7 @@ import type { ExerciseOverview, RecordingEntry, RecordingTrace, Result } from ".
 import { saveAddress } from "../download.ts";
 import { fetchSource, type Progress } from "../recordings/fetch_source.ts";
 import { bytesText, dateText } from "../recordings/words.ts";
-import { expertButton, expertSource, expertTrace, judgedBy } from "./expert.ts";
+import { DRAFT, expertButton, expertSource, expertTrace, judgedBy } from "./expert.ts";
 import { goalList, verdict } from "./goals.ts";
 import { metricRows } from "./metrics.ts";
 import { layersOf, spaceOf, traceOf } from "./trace.ts";
@@ -63,6 +63,9 @@ export function openResult(
       element("section", {}, element("h3", {}, "Measures"), table(result)),
     ),
     place,
+    ...(result.name === DRAFT
+      ? [element("p", { class: "quiet" }, "The result of an exercise that is not saved is not kept.")]
+      : []),
     element(
       "div",
       { class: "tools" },
