@@ -39,11 +39,11 @@ ROWS = """() => {
   return rows.size;
 }"""
 
-# Nothing of the view is seen through the curve: left, at the numbers of the depth, and right.
+# Beside the tissue, nothing of the view is seen through the curve: left, at the numbers of the depth, and right.
 OPAQUE = """() => {
   const canvas = document.querySelector(".stage-curve canvas");
   const {width, height} = canvas;
-  const row = canvas.getContext("2d").getImageData(0, Math.floor(0.8 * height), width, 1).data;
+  const row = canvas.getContext("2d").getImageData(0, Math.floor(0.7 * height), width, 1).data;
   return row.length > 0 && row.every((value, i) => i % 4 < 3 || value === 255);
 }"""
 GOAL_WHOLE = """() => {

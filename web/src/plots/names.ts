@@ -36,8 +36,8 @@ export function drawEnds(pen: Pen, pane: Pane, all: readonly End[], theme: Theme
   });
   const right = ends.map(({ text }, i) => left[i]! + textWidth(text, SIZE));
   const meet = (i: number, j: number): boolean => left[i]! < right[j]! && left[j]! < right[i]!;
-  const wanted = ends.map(({ y }) => Math.max(pane.top + ROW / 2, y - ABOVE));
-  const middles = apart(wanted, ROW, pane.bottom - ROW / 2, meet);
+  const wanted = ends.map(({ y }) => y - ABOVE);
+  const middles = apart(wanted, ROW, [pane.top + ROW / 2, pane.bottom - ROW / 2], meet);
   ends.forEach(({ x, y, colour }, i) => {
     if (Math.abs(middles[i]! - wanted[i]!) < ROW / 2) return;
     const side = left[i]! > x ? left[i]! : right[i]!;

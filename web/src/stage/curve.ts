@@ -1,6 +1,6 @@
 import { element } from "../panel.ts";
 import { CanvasPen } from "../plots/kit/canvas_pen.ts";
-import { apart, spread, textWidth } from "../plots/kit/labels.ts";
+import { apart, textWidth } from "../plots/kit/labels.ts";
 import { Polyline } from "../plots/kit/polyline.ts";
 import { label, niceStep, Scale, ticks } from "../plots/kit/scale.ts";
 import { colourOf, type Theme, watchTheme } from "../plots/kit/theme.ts";
@@ -87,7 +87,7 @@ export class CurvePicture {
       this.points = 0;
       this.arrange(shown);
       this.pen.begin(width, height, devicePixelRatio);
-      this.drawGround(theme);
+      this.drawGround(bands, theme);
       this.drawBands(bands, theme);
       this.drawAxes(bands, theme);
     }
@@ -114,7 +114,7 @@ export class CurvePicture {
     const middles = apart(
       buttons.map(({ depth }) => this.depth(depth)),
       high + 2,
-      this.height - high / 2,
+      [high / 2, this.height - high / 2],
     );
     buttons.forEach(({ button, force, depth }, i) => {
       const left = this.width - EDGE - button.offsetWidth;
@@ -141,16 +141,17 @@ export class CurvePicture {
   }
 
   /** The tissue and the trail of the view follow the needle, and would come under the numbers and the curve. */
-  private drawGround(theme: Theme): void {
+  private drawGround(bands: readonly Band[], theme: Theme): void {
     const { pen, width, height, depth, letter } = this;
+    const deep = bands.at(-1)?.bottom ?? 10;
     // The numbers of the force stand above the skin.
     this.axis = Math.max(TOP * letter, Math.min(depth(0) - 2 * letter, height));
     const top = this.axis - TOP * letter;
-    pen.box(0, top, width, height - top, theme.panel, 1);
+    pen.box(0, top, width, Math.min(height, depth(deep)) - top, theme.panel, 1);
   }
 
   private drawBands(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, depth, height, letter } = this;
+    const { pen, width, depth } = this;
     for (const { tone, membrane, top, bottom } of bands) {
       const high = Math.max(2, depth(bottom) - depth(top));
       const colour = tone
@@ -160,9 +161,6 @@ export class CurvePicture {
           : colourOf(theme, membrane);
       if (colour) pen.box(AXIS, depth(top), width - AXIS, high, colour, tone ? 0.5 : 0.3);
     }
-    // On the left, where only a force that pulls is drawn.
-    for (const { name, y } of placedNames(bands, depth, letter, height - EDGE))
-      pen.text(AXIS + 6, y, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
   }
 
   private drawAxes(bands: readonly Band[], theme: Theme): void {
@@ -171,7 +169,7 @@ export class CurvePicture {
     const quiet = { colour: theme.quiet, size: letter - 1 } as const;
     const skin = depth(0);
     const end = Math.min(height, depth(deep));
-    const step = niceStep(force.max - force.min, Math.max(2, width / 110));
+    const step = niceStep(force.max - force.min, Math.max(2, width / (8 * letter)));
     for (const value of ticks(force.min, force.max, step)) {
       const x = Math.round(force.px(value)) + 0.5;
       const strong = Math.abs(value) < step / 2;
@@ -191,6 +189,9 @@ export class CurvePicture {
       pen.segment(AXIS - 4, y, AXIS, y, { colour: theme.quiet, width: 1 });
       pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
     }
+    // Of the layers, on the left, where only a force that pulls is drawn; over the lines.
+    for (const { name, y } of placedNames(bands, depth, letter, height - EDGE))
+      pen.text(AXIS + 6, y, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
   }
 
   private drawNew({ path }: Attempt, theme: Theme): void {
@@ -243,7 +244,7 @@ export function placedNames(
   let named = bands.filter(({ name }) => name !== "");
   for (;;) {
     const wanted = named.map(({ top, bottom }) => Math.min(lowest, depth((top + bottom) / 2)));
-    const placed = spread(wanted, letter + 1, lowest);
+    const placed = apart(wanted, letter + 1, [Number.NEGATIVE_INFINITY, lowest]);
     if (named.every((band, i) => Math.abs(placed[i]! - wanted[i]!) <= Math.max(letter, high(band)) / 2))
       return named.map(({ name }, i) => ({ name, y: placed[i]! }));
     const thinnest = named.reduce((a, b) => (high(b) < high(a) ? b : a));

@@ -150,7 +150,7 @@ function drawLayers(pen: Pen, pane: Pane, layers: readonly Layer[], space: Layer
     ...(space ? [{ text: "to reach", at: box(space, green, 0.16), colour: green, bold: true }] : []),
     ...layers.map((layer) => ({ text: layer.name, at: box(layer, theme.quiet, 0.22), colour: theme.quiet })),
   ];
-  const places = apart(labels.map(({ at }) => at), 12, pane.bottom + 6); // biome-ignore format: one line
+  const places = apart(labels.map(({ at }) => at), 12, [pane.top, pane.bottom + 6]); // biome-ignore format: one line
   labels.forEach(({ text, at: _, ...look }, i) => {
     pen.text(pane.right + 6, places[i]!, text, look);
   });

@@ -30,42 +30,39 @@ export function labelsThatFit(labels: readonly Label[], left: number, right: num
 }
 
 /**
- * Moves labels in a column apart, in their order: at least `gap` px between two middles, none below `bottom`. meet:
- * whether two of them can touch at all.
+ * Moves labels in a column apart, in their order and by as little as possible together: at least `gap` px between two
+ * middles, from `top` to `bottom`. Labels that do not meet, not even through others, are in columns of their own.
  */
 export function apart(
   middles: readonly number[],
   gap: number,
-  bottom: number,
+  [top, bottom]: readonly [top: number, bottom: number],
   meet: (one: number, other: number) => boolean = () => true,
 ): number[] {
-  const order = middles.map((_, i) => i).sort((a, b) => middles[a]! - middles[b]!);
+  let columns: number[][] = [];
+  middles.forEach((_, i) => {
+    const meets = columns.filter((column) => column.some((j) => meet(i, j)));
+    columns = [...columns.filter((column) => !meets.includes(column)), [...meets.flat(), i]];
+  });
   const placed = [...middles];
-  order.forEach((i, k) => {
-    for (const j of order.slice(0, k)) if (meet(i, j)) placed[i] = Math.max(placed[i]!, placed[j]! + gap);
-  });
-  order.toReversed().forEach((i, k) => {
-    placed[i] = Math.min(placed[i]!, bottom);
-    for (const j of order.slice(order.length - k)) if (meet(i, j)) placed[i] = Math.min(placed[i]!, placed[j]! - gap);
-  });
+  for (const column of columns) {
+    column.sort((a, b) => middles[a]! - middles[b]!);
+    // Without the gaps, labels that are moved stand at the mean of what they want.
+    const groups: { mean: number; count: number }[] = [];
+    column.forEach((i, k) => {
+      let group = { mean: middles[i]! - k * gap, count: 1 };
+      for (let above = groups.at(-1); above && above.mean > group.mean; above = groups.at(-1)) {
+        const count = above.count + group.count;
+        group = { mean: (above.mean * above.count + group.mean * group.count) / count, count };
+        groups.pop();
+      }
+      groups.push(group);
+    });
+    const most = bottom - (column.length - 1) * gap;
+    const places = groups.flatMap(({ mean, count }) => new Array<number>(count).fill(Math.max(mean, top)));
+    column.forEach((i, k) => {
+      placed[i] = Math.min(places[k]!, most) + k * gap;
+    });
+  }
   return placed;
-}
-
-/** The same for a column in order, in which all can touch: moved up or down, by as little as possible together. */
-export function spread(middles: readonly number[], gap: number, bottom: number): number[] {
-  // Without the gaps, labels that are moved stand at the mean of what they want.
-  const groups: { mean: number; count: number }[] = [];
-  middles.forEach((middle, i) => {
-    let group = { mean: middle - i * gap, count: 1 };
-    for (let above = groups.at(-1); above && above.mean > group.mean; above = groups.at(-1)) {
-      const count = above.count + group.count;
-      group = { mean: (above.mean * above.count + group.mean * group.count) / count, count };
-      groups.pop();
-    }
-    groups.push(group);
-  });
-  const most = bottom - (middles.length - 1) * gap;
-  return groups
-    .flatMap(({ mean, count }) => new Array<number>(count).fill(Math.min(mean, most)))
-    .map((place, i) => place + i * gap);
 }

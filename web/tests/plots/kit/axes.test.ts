@@ -113,12 +113,14 @@ describe("axes at any width", () => {
 });
 
 describe("labels in a column", () => {
-  it("move apart in their order, and stay above the lower end", () => {
-    expect(apart([50, 10, 12], 12, 100)).toEqual([50, 10, 22]);
-    expect(apart([95, 98, 99], 12, 100)).toEqual([76, 88, 100]);
+  it("move apart in their order, up and down, and stay inside", () => {
+    expect(apart([50, 10, 12], 12, [0, 100])).toEqual([50, 5, 17]);
+    expect(apart([95, 98, 99], 12, [0, 100])).toEqual([76, 88, 100]);
+    expect(apart([1, 0], 12, [0, 100])).toEqual([12, 0]);
   });
-  it("that have room stay where they are", () => {
-    expect(apart([5, 40, 80], 12, 100)).toEqual([5, 40, 80]);
+  it("that have room, or cannot meet, stay where they are", () => {
+    expect(apart([5, 40, 80], 12, [0, 100])).toEqual([5, 40, 80]);
+    expect(apart([5, 6, 7], 12, [0, 100], (i, j) => i + j !== 1 && i + j !== 3)).toEqual([0, 6, 12]);
   });
 });
 
