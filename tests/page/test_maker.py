@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import tomllib
-from person import opened, ready, saved, tab
+from person import opened, push, ready, saved, tab
 from playwright.sync_api import expect
 from punctura.exercise import load_exercise
 from punctura.scene import scene_path
@@ -36,6 +36,16 @@ def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
     expect(page.locator("article.exercise", has_text="My own goal")).to_be_visible()
     side.get_by_role("button", name="Try", exact=True).click()
     running = page.locator(".running")
+    expect(running).to_contain_text("My own goal")
+    push(page, "Shift+ArrowDown", 8)
+    running.get_by_role("button", name="End").click()
+    result = page.get_by_role("dialog")
+    expect(result.get_by_role("heading", level=2)).to_have_text("My own goal (draft) ✕ not passed")
+    expect(result).to_contain_text("What went well")
+    expect(result).to_contain_text("is not kept")
+    expect(result.locator(".trace svg")).to_be_visible()
+    expect(result.get_by_role("button", name=re.compile("^Use as expert"))).to_have_count(0)
+    result.get_by_role("button", name="Try again").click()
     expect(running).to_contain_text("My own goal")
     running.get_by_role("button", name="End").click()
     expect(running).to_be_hidden()
@@ -70,7 +80,7 @@ GOALS = {
     "straight": ("Venipuncture", "0", "at least 0.1 mm", "0.5", "Stay within 0.5 mm of the line of entry"),
     "peak_force": ("Venipuncture", "0", "at least 0.001 N", "0.5", "Push with no more than 0.5 N"),
     "speed": ("Venipuncture", "0.1", "at least 0.5 mm/s", "5", "Push in with no more than 5 mm/s"),
-    "entry_angle": ("Venipuncture", "0", "at least 1 deg", "7", "Enter the skin at 30 degrees, within 7 degrees"),
+    "entry_angle": ("Venipuncture", "0", "at least 1 degree.", "7", "Enter the skin at 30 degrees, within 7 degrees"),
     "no_pause": ("Venipuncture", "0", "at least 0.01 s", "1", "Do not stand still for 1 s on the way to the vessel"),
     "depth": ("Venipuncture", "0", "at least 0.1 mm", "2.5", "Keep the point within 2.5 mm of the front vein wall"),
     "time_limit": ("Venipuncture", "0", "at least 0.01 s", "60", "Finish within 60 s of the first contact"),

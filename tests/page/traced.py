@@ -33,4 +33,4 @@ def answer(form: Locator) -> None:
     """Fills in what the file does not state."""
     form.get_by_label("Unit of the depth").select_option("mm")
     form.get_by_label("Diameter, mm").fill("1.2")
-    form.get_by_label("Tip angle, °").fill("22,918")
+    form.get_by_label("Tip angle, degrees").fill("22,918")

@@ -40,7 +40,7 @@ function angleRow(hand: Hand): HTMLElement {
     step: 1,
     value: 0,
   });
-  const figure = element("output", { class: "figure", for: "hand-angle" }, "–°");
+  const figure = element("output", { class: "figure", for: "hand-angle" }, "–");
   let shown: number | null = null;
   const show = (): void => {
     if (!hand.pose()) return; // no tick has arrived yet
@@ -48,9 +48,9 @@ function angleRow(hand: Hand): HTMLElement {
     if (degrees === shown && slider.value === String(degrees)) return;
     shown = degrees;
     slider.value = String(degrees);
-    figure.textContent = `${degrees}°`;
+    figure.textContent = `${degrees} degrees`;
     slider.setAttribute("aria-valuetext", `${degrees} degrees from upright, ${90 - Math.abs(degrees)} to the skin`);
-    figure.title = `${90 - Math.abs(degrees)}° to the skin`;
+    figure.title = `${90 - Math.abs(degrees)} degrees to the skin`;
   };
   slider.addEventListener("input", () => {
     hand.setTilt((Number(slider.value) * Math.PI) / 180);

@@ -16,7 +16,7 @@ export const KEYS: readonly (readonly [keys: string, what: string])[] = [
   ["↓ ↑", "in, out along the needle, 0.25 mm; while held, 7.5 mm/s; with Shift four times as far"],
   ["← →", "to the side along the skin, in the same steps"],
   ["PageDown PageUp", "along the skin towards you, away from you, in the same steps"],
-  ["Q E", "tilt by 2°; while held, 60°/s"],
+  ["Q E", "tilt by 2 degrees; while held, by 60 in a second"],
   ["Home", "in front of the first membrane, aimed at its centre"],
   ["+ −", "zoom in, out"],
   ["A D W S", "orbit the scene"],

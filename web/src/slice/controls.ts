@@ -135,7 +135,7 @@ export function probeSliders(probe: Probe): HTMLElement {
     element("summary", {}, "Move the probe"),
     slider("Left–right", "mm", REACH_MM, 0.5, (at) => at.x, (at, x) => ({ ...at, x })),
     slider("Back–front", "mm", REACH_MM, 0.5, (at) => at.z, (at, z) => ({ ...at, z })),
-    slider("Turn", "°", 90, 1, (at) => at.turn / DEGREE, (at, turn) => ({ ...at, turn: turn * DEGREE })),
+    slider("Turn", "degrees", 90, 1, (at) => at.turn / DEGREE, (at, turn) => ({ ...at, turn: turn * DEGREE })),
     element("p", {}, PROBE_KEYS),
   ); // biome-ignore format: a list
 }

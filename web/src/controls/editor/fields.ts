@@ -103,6 +103,9 @@ function pair(rule: unknown): [string, string][] {
   return keys.length === 2 && keys[0] && keys[1] ? [[keys[0], keys[1]]] : [];
 }
 
+/** A file's unit as the page calls it. */
+const unitWords = (unit: string): string => (unit === "deg" ? "degrees" : unit);
+
 function field(key: string, whole: Json, required: boolean): Field {
   // A number or a word: {"anyOf": [{"type": "number", ...}, {"const": "automatic"}]}
   const kinds = list(whole.anyOf).map((each) => object(each, key));
@@ -113,7 +116,7 @@ function field(key: string, whole: Json, required: boolean): Field {
     title: text(entry.title) || key,
     help: text(entry.description),
     symbol: text(entry["x-symbol"]),
-    unit: text(entry["x-unit"]),
+    unit: unitWords(text(entry["x-unit"])),
     kind: kind(key, entry, options.length > 0),
     least: bound(entry.minimum, entry.exclusiveMinimum),
     most: bound(entry.maximum, entry.exclusiveMaximum),

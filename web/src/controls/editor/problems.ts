@@ -41,9 +41,11 @@ export const plainPaths = (text: string): string =>
     return `${owner}, ${name}${axis === undefined ? "" : ` ${"xyz"[Number(axis)] ?? ""}`}`;
   });
 
-/** A reason as a sentence, without the number of the paper's equation. */
+/** A reason as a sentence in the page's words, without the number of the paper's equation. */
 export function words(reason: string): string {
-  const plain = plainPaths(reason.replace(/, K06 \(\d+\)$/, ""));
+  const plain = plainPaths(reason.replace(/, K06 \(\d+\)$/, ""))
+    .replace(/\b1 deg\b/, "1 degree")
+    .replace(/ deg\b/, " degrees");
   const capital = plain.charAt(0).toUpperCase() + plain.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

@@ -81,7 +81,7 @@ export function metricRows(metrics: Metrics): MetricRow[] {
     },
     {
       label: "Angle of entry",
-      value: angle === null ? NONE : `${((angle * 180) / Math.PI).toFixed(0)}°`,
+      value: angle === null ? NONE : `${((angle * 180) / Math.PI).toFixed(0)} degrees`,
       help: "Angle between the needle and the first surface.",
     },
     {

@@ -14,7 +14,7 @@ const UNITS: Readonly<Record<string, readonly [unit: string, gain: number]>> = {
   "1/m": ["1/mm", 1e-3],
   "N/m": ["N/mm", 1e-3],
   "N s/m": ["N s/mm", 1e-3],
-  rad: ["deg", 180 / Math.PI],
+  rad: ["degrees", 180 / Math.PI],
   "-": ["", 1],
 };
 

@@ -68,7 +68,7 @@ test("measures are told in units for people; what there was not is a dash", () =
     "Peak model force": "0.90 N",
     "Overshoot after skin": "2.1 mm",
     "Path straightness": "–",
-    "Angle of entry": "30°",
+    "Angle of entry": "30 degrees",
     "Time to the space": "–",
   });
   expect(rows.has("Ticks lost")).toBe(false);

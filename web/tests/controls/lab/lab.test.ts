@@ -93,7 +93,7 @@ describe("a comparison", () => {
     const names = ["skin"];
     expect(runWords("membrane[0].stiffness = 285 N/m", names)).toBe("1 skin: stiffness = 0.285 N/mm");
     expect(runWords("membrane[0].point[1] = -0.001 m", names)).toBe("1 skin: point y = -1 mm");
-    expect(runWords("needle.tip_angle = 0.209440 rad", names)).toBe("needle: tip angle = 12 deg");
+    expect(runWords("needle.tip_angle = 0.209440 rad", names)).toBe("needle: tip angle = 12 degrees");
     expect(runWords("membrane[0].friction = 1e-06 -", names)).toBe("1 skin: friction = 0.000001");
     for (const name of ["Ann", "a = 3", "2026-11-29 skin = 4 N"]) expect(runWords(name, names)).toBe(name);
   });

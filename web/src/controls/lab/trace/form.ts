@@ -63,7 +63,7 @@ export function questions(app: App, file: FileLine, act: (answers: Answers) => v
   const rows = file.roles.map((role) => roleField(file, role, fields));
   const [diameter, angle] = [number(), number()];
   const needle = field("Diameter, mm", diameter);
-  const tip = field("Tip angle, °", angle);
+  const tip = field("Tip angle, degrees", angle);
   fields.set("diameter_mm", (text) => needle.complain(text));
   fields.set("tip_angle_deg", (text) => tip.complain(text));
   const fill = (words: { diameter: string; angle: string }): void => {
