@@ -51,8 +51,8 @@ def open_still(achievement: Achievement, measures: Measures, space: TargetSpace,
 
 def of_page(late: float) -> list[str]:
     """Tells how long the page that moves the hand was silent."""
-    text = f"The page was late: for {tenths(late)} s it sent nothing, so the needle stood still. This is no pause."
-    return [text] if late >= 0.5 else []
+    text = f"The page was late: for {tenths(late)} s it sent nothing, so the needle stood still."
+    return [f"{text} This does not count as a pause."] if late >= 0.5 else []
 
 
 def of_force(measures: Measures) -> list[str]:

@@ -47,7 +47,7 @@ class AngleJudge(BegunJudge):
         first = course.scene.membranes[0]
         asked = f"Enter the {first.name} at {asked_deg:g} degrees, within {goal.within_deg:g} degrees"
         most = goal.turned_at_most_deg
-        super().__init__(goal.text or asked + (f", turned by at most {most:g} degrees" if most else ""))
+        super().__init__(goal.text or asked + (f", turned sideways by at most {most:g} degrees" if most else ""))
         self.asked_deg, self.within_deg, self.turned_at_most_deg = asked_deg, goal.within_deg, most
         self.entered: float | None = None  # rad, of the first wrong entry
         self.turned: float | None = None  # rad from the start's heading, of the first entry that is turned too far
