@@ -29,8 +29,8 @@ TOUCHED = 1024  # px: up to this width, fingers are the usual pointer
 STILL_MS = 1500  # until plots and view are drawn
 RESTS = """() => {
   const view = document.querySelector(".view canvas");
-  return !view || Math.abs(view.width - 2 * view.clientWidth) <= 2;
-}"""  # drawn without a graphics card
+  return !view?.clientWidth || Math.abs(view.width - 2 * view.clientWidth) <= 2;
+}"""  # drawn without a graphics card; without WebGL there is no view
 
 # name, scene, action, size, colour scheme
 STATES: tuple[tuple[str, str, do.Act, tuple[int, int], str], ...] = (

@@ -1,7 +1,7 @@
 """The stage, which opens first: one sentence, one force, one curve, at most three buttons; the needle always whole."""
 
 import pytest
-from axe import AXE, none_found
+from axe import AXE, check
 from person import NO_WEBGL, opened, ready, tab, view, whole_at
 from playwright.sync_api import Page, Route, WebSocketRoute, expect
 from studio_process import StudioProcess
@@ -141,9 +141,10 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(dots).to_have_count(marks(page).count())
     page.wait_for_function(AT_TIP)
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    none_found(page, "the stage after a pop")
+    check(page, "the stage after a pop")
     marks(page).first.click()
     expect(sentence).to_have_text("The pop of the skin, slowly.")
+    check(page, "a pop on the stage, slowly")
     replay = page.get_by_role("group", name="Replay")
     expect(replay.get_by_role("button")).to_have_count(1)  # plays and pauses; the way back is the stage's "Go on"
     expect(replay.get_by_role("button", name="Play")).to_be_visible()
@@ -243,7 +244,7 @@ def test_an_exercise_leads_back_to_the_stage_with_its_goals_and_its_clock(page):
     expect(running.locator(".instruction")).to_be_hidden()  # it is said once
     expect(view(page)).to_be_focused()
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    none_found(page, "the stage in an exercise")
+    check(page, "the stage in an exercise")
     for size in SIZES:
         whole_at(page, size, running.get_by_role("timer"), running.get_by_role("button", name="End"))
         page.wait_for_function(WORDS_WHOLE)
