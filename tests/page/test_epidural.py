@@ -202,7 +202,8 @@ def test_the_page_shows_a_second_device_under_the_thumb(browser: Browser, tmp_pa
 
 
 OVERLAPS = """() => {
-    const all = [...document.querySelectorAll(".view-label, .view-tools, .view-help, .scale-bar, .hub-inset")]
+    const parts = ".view-label, .view-tools, .view-help, .view-coarser, .scale-bar, .hub-inset";
+    const all = [...document.querySelectorAll(parts)]
         .filter(node => node.checkVisibility() && node.getBoundingClientRect().width > 0);
     const found = [];
     all.forEach((one, i) => all.slice(i + 1).forEach(other => {

@@ -5,7 +5,8 @@ import { type Place, placeLabels, type Rect, type Wish } from "./label_places.ts
 const SVG = "http://www.w3.org/2000/svg";
 /** Parts of the view that labels do not cover. */
 const OBSTACLES =
-  ".view-tools, .view-help, .view-sentence, .scale-bar, .hub-inset, .pop-words, .view-moment, .thumb-button";
+  ".view-tools, .view-help, .view-sentence, .view-coarser, .view-moment, " +
+  ".scale-bar, .hub-inset, .pop-words, .thumb-button";
 const MEASURE_MS = 400;
 
 interface Label {
