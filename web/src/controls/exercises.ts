@@ -1,4 +1,4 @@
-import { errorText } from "../format.ts";
+import { errorText, unbroken } from "../format.ts";
 import { tellAwake } from "../hand/hand.ts";
 import { button, element, keptList, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
@@ -150,7 +150,7 @@ function card(
     ...(wrong ? [problemList("problems", exercise.problems)] : []),
     ...(exercise.warnings.length > 0 ? [problemList("warnings", exercise.warnings)] : []),
     ...(exercise.unfelt ? [element("p", { class: "unfelt", role: "note" }, exercise.unfelt)] : []),
-    element("p", {}, exercise.description),
+    element("p", {}, unbroken(exercise.description)),
     ...(exercise.note ? [element("p", { class: "quiet", role: "note" }, exercise.note)] : []),
     goalList(exercise.goals.map((text) => ({ text, state: "open" }))),
     ...(wrong || exercise.name === DRAFT ? [] : [expertChoice(app, exercise, () => void changed())]),

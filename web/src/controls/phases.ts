@@ -91,7 +91,7 @@ export const phasesPanel: Panel = (host, app) => {
     const uppers = history.row("upper", tick);
     const phases = history.byteRow("phase", tick);
     const share = feltShare(history, tick);
-    write(heads[4]!, `${feltForce(scaleOf(plots.source, tick))}, N`);
+    write(heads[4]!, `${feltForce(scaleOf(plots.source, tick)).replace("× ", "×\u00a0")}, N`);
     rows.forEach((row, i) => {
       const depth = depths[i] ?? Number.NaN;
       const through = laws.value[i]?.through ?? Number.POSITIVE_INFINITY;

@@ -14,7 +14,7 @@ export function plungerRows(app: App): HTMLElement {
   const thumb = thumbOf(app);
   const push = thumbButton(app, "Hold to push", "button");
 
-  const keys = element("div", { class: "row" }, push, "or the button in the view, or Space or Alt and the wheel there");
+  const keys = element("div", { class: "row" }, push, "or, in the view: its button, Space, or the wheel with Alt");
   const second = element("p", { class: "quiet" });
   app.hello.watch((hello) => {
     const model = hello?.second_device ?? "";
