@@ -1,13 +1,16 @@
 """A protocol: the schema of its file, and the protocol after checking (docs/perception.md)."""
 
 import hashlib
+import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
 
 from punctura import Scene
 from punctura.files.fields import Number, Numbers, Text, WholeNumber
@@ -32,14 +35,43 @@ _NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\.\d{1,9}")
 KEYS = {"first": "1", "second": "2", "third": "3", "yes": "y", "no": "n", "less": "-", "more": "+", "equal": "="}
 
 
+def _valid(holds: Callable[[Any], bool], reason: str) -> AfterValidator:
+    def checked(value: object) -> object:
+        if not holds(value):
+            raise PydanticCustomError("bounds", "{reason}", {"reason": reason})
+        return value
+
+    return AfterValidator(checked)
+
+
+def _within(least: int, most: int) -> AfterValidator:
+    return _valid(lambda value: least <= value <= most, f"must be from {least} to {most}")
+
+
+Several = Annotated[WholeNumber, _within(0, 1000)]  # trials
+Steps = Annotated[WholeNumber, _within(1, 100)]
+Levels = Annotated[
+    Numbers,
+    _valid(
+        lambda given: 3 <= len(given) <= 100 and all(map(math.isfinite, given)) and sorted({*given}) == [*given],
+        "must be 3 to 100 finite numbers, each larger than the one before",
+    ),
+]
+Ends = Annotated[
+    Numbers,
+    _valid(lambda given: len(given) == 2 and given[0] < given[1], "must be two numbers, the smaller one first"),
+]
+Break = Annotated[Number, _valid(lambda value: 0 < float(value) <= 3600, "must be more than 0 and at most 3600")]
+
+
 class StimulusTable(Table):
     """What differs between the trials. SI."""
 
     variable: Text  # a path of the scene, or one of QUANTITIES
-    levels: Numbers
+    levels: Levels
     reference: Number | None = None  # level of the other intervals; not for ONE_INTERVAL
     solve: Text | None = None  # for a quantity: the path whose number is solved ...
-    between: Numbers | None = None  # ... between these two
+    between: Ends | None = None  # ... between these two
     membrane: Text | None = None  # whose pop is judged; default: the first
     judged: Literal["drop", "contrast", "peak", "roughness"] = "drop"  # what a simulated observer judges
     solver: Literal["paper", "exact"] | None = None  # of the scene's [servo], in the intervals with the level ...
@@ -51,13 +83,13 @@ class TrialsTable(Table):
 
     per_level: WholeNumber | None = None  # of constant stimuli
     total: WholeNumber | None = None  # of a staircase and QUEST+; settings of an adjustment
-    blocks: WholeNumber = 1
-    practice: WholeNumber = 0  # before the first block, at the easiest level; not analysed
-    catch: WholeNumber = 0  # in each block, at catch_level
+    blocks: Annotated[WholeNumber, _within(1, 1000)] = 1
+    practice: Several = 0  # before the first block, at the easiest level; not analysed
+    catch: Several = 0  # in each block, at catch_level
     catch_level: Number | None = None  # yes_no: without what is asked for; otherwise clearer than the levels
-    up: WholeNumber = 3  # steps of a staircase after a wrong answer
-    down: WholeNumber = 1  # and after a right one: it stays where up/(up + down) of the answers are right
-    break_s: Number | None = None  # after each block
+    up: Steps = 3  # steps of a staircase after a wrong answer
+    down: Steps = 1  # and after a right one: it stays where up/(up + down) of the answers are right
+    break_s: Break | None = None  # after each block
 
 
 class ProtocolFile(Table):
@@ -73,7 +105,7 @@ class ProtocolFile(Table):
     scene: Text  # a ready scene, or the path of a scene file relative to this file
     method: Method
     task: Task
-    seed: WholeNumber = 0
+    seed: Annotated[WholeNumber, _valid(lambda value: value >= 0, "must be 0 or more")] = 0
     stimulus: StimulusTable
     trials: TrialsTable = TrialsTable()
     answers: dict[str, Text] = Field(default_factory=dict)  # the key of each answer
@@ -123,7 +155,7 @@ class Protocol:
     references: tuple[Stimulus, ...]  # for each level the other intervals; empty without other intervals
     catch: Stimulus | None  # of trials without the stimulus
     membrane: int  # the judged one
-    unit: str  # of the levels
+    unit: str  # of the levels; empty without one
 
     @property
     def name(self) -> str:

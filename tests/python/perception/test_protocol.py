@@ -1,5 +1,6 @@
 """Protocol files: what is wrong is said at once, with its place, before a person sits down."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,11 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
     text = SOLVED.replace("0.35]", "2.5]").replace("[stimulus]", 'seed = "x"\n[stimulus]').replace("= 20", "= 2")
     found = problems(tmp_path, text.replace("title", "titel"))  # also beside what the schema refuses
     assert found.keys() == {"seed", "title", "titel", "trials.per_level", "stimulus.levels[2]"}
+    text = COMPARES.replace('method = "constant"\ntask = "two_intervals"\nseed = 3', "seed = -1\npicture = 1")
+    text = re.sub(r"levels = .*", 'levels = ["x"]\nsolve = "thickness"', text).replace("blocks = 2", "blocks = 0")
+    found = problems(tmp_path, text + 'break_s = 0\n[words]\nlast = "{x}"\n[values]\n"needle.x" = 1\n')
+    wanted = ["method", "task", "seed", "picture", "trials.blocks", "trials.break_s", "words.last", 'values."needle.x"']
+    assert found.keys() == {*wanted, "stimulus.levels", "stimulus.solve"}  # each key by itself
 
 
 @pytest.mark.parametrize(
