@@ -68,7 +68,7 @@ def check(protocol: File, as_json: Json = False) -> None:
     typer.echo(f"{loaded.file.title}: {about}")
     for level, felt in ((one.level, one.felt) for one in loaded.stimuli):
         words = f"drop {felt.drop:.3f} N, peak {felt.peak:.3f} N, roughness {felt.roughness * 1e3:.1f} mN"
-        typer.echo(f"  {level:g} {loaded.unit}: {words}")
+        typer.echo(f"  {f'{level:g} {loaded.unit}'.rstrip()}: {words}")
 
 
 @command.command()
@@ -197,7 +197,8 @@ def power(
     if as_json:
         typer.echo(json.dumps([asdict(row) for row in rows], indent=2))
         return
-    typer.echo(f"trials  people  interval of a person, {loaded.unit}  of the mean, {loaded.unit}  without a threshold")
+    head = "trials  people  interval of a person, UNIT  of the mean, UNIT  without a threshold"
+    typer.echo(head.replace("UNIT", loaded.unit or "-"))
     for row in rows:
         typer.echo(
             f"{row.trials:6}  {row.people:6}  {row.person_width:26.3g}  {row.mean_width:14.3g}  {row.without:20.1%}"

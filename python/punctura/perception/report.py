@@ -139,16 +139,17 @@ def _cells(one: Detection | None) -> tuple[str, ...]:
 
 
 def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
-    file, unit = protocol.file, "" if found.unit == "-" else f", {found.unit}"
+    file, unit = protocol.file, f", {found.unit}" if found.unit else ""
     keys = {"threshold": f"threshold{unit}"}
     if protocol.rates:
-        keys = {"slope": "exponent" if file.task == "magnitude" else f"points for each {found.unit}"}
+        keys = {"slope": "exponent" if file.task == "magnitude" else f"points for each {found.unit or 'unit'}"}
     if protocol.reference is not None:
         keys |= {"jnd": f"JND{unit}", "weber": "Weber fraction"}
     if not (protocol.rates or protocol.adjusts):
         keys |= {"lapse": "lapses"} | ({"first": '"first" if equal'} if file.task == "two_intervals" else {})
     shares = "right answers" if protocol.compares else _counted(protocol)
     what = "the felt quantity" if found.felt else "the planned level"
+    whose = ", for people who seldom lapse" * ("lapse" in keys)
     form, rows = ".3g" if protocol.rates or protocol.adjusts else ".0%", []
     for one in found.people:
         cells = [words(getattr(one, key)) for key in keys]
@@ -163,7 +164,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
-        f"{what}. Intervals are {LEVEL:.0%} intervals, for people who seldom lapse. Source of the protocol: "
+        f"{what}. Intervals are {LEVEL:.0%} intervals{whose}. Source of the protocol: "
         f"{file.source or 'not given'}.", "",
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
@@ -183,8 +184,12 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         lines += _table(head, rows)
     if any(np.isinf([*each.dprime, *each.criterion]).any() for one in detected for each in one.detection):
         lines += [OPEN_END, ""]
-    if protocol.shape.bends and protocol.shape.one_sided and (few := min(one.trials for one in found.people)):
-        each = few // len(protocol.levels)
+    if (
+        protocol.shape.bends
+        and protocol.shape.one_sided
+        and (told := [one.trials for one in found.people if one.lapse])
+    ):
+        each = min(told) // len(protocol.levels)
         lines += [SHAPES.format(each=each), ""] * (each < TELL_SHAPE)
     caught = [one for one in found.people if one.catch_trials]
     if caught:
@@ -282,7 +287,7 @@ def _label(protocol: Protocol) -> str:
         return f"felt {protocol.quantity}, N"
     if found := re.fullmatch(r"membrane\[(\d+)\]\.(\w+)", name):
         name = f"{found[2]} of the {protocol.stimuli[0].scene.membranes[int(found[1])].name}"
-    return name + {"m": ", mm", "-": ""}.get(protocol.unit, f", {protocol.unit}")
+    return name + {"m": ", mm", "": ""}.get(protocol.unit, f", {protocol.unit}")
 
 
 def _counted(protocol: Protocol) -> str:

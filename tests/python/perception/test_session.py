@@ -197,10 +197,13 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
 
 
 def test_a_report_says_what_so_few_answers_do_not_tell(tmp_path: Path) -> None:
-    simulation = Simulation(load_protocol("chatter"), Observer(weber=0.0, noise=0.0008))
-    simulation.run_on_disk(tmp_path, "O01", 1)
-    assert write_report(simulation.protocol, tmp_path).people[0].threshold
-    assert "24 answers at a level do not tell which" in (tmp_path / "report.md").read_text()
+    rating = COMPARES.replace('"two_intervals"', '"rating"').replace("reference = 0.41\n", "")
+    for name, few in (("chatter", True), (written(tmp_path, rating), False)):
+        simulation = Simulation(load_protocol(name), Observer(weber=0.0, noise=0.0008))
+        simulation.run_on_disk(tmp_path / str(few), "O01", 1)
+        assert write_report(simulation.protocol, tmp_path / str(few)).people[0].reason == ""
+        report = (tmp_path / str(few) / "report.md").read_text()
+        assert few == ("24 answers at a level do not tell which" in report) == ("for people who seldom lapse" in report)
 
 
 def test_masking_noise_has_as_much_power_in_each_octave() -> None:
