@@ -108,8 +108,8 @@ class AirNoise:
 def seen_in_air(trace: Trace) -> tuple[str, ...]:
     """What the air says of the rig: each model then has a drift over the time, and what is left of its forces."""
     forces = [name for name, shape in zip(RIG_FORCES, shapes(trace).T, strict=True) if shape.any()]
-    drifts = trace.time is not None and any(finding.kind == "drift" for finding in trace.findings)
-    return (*(("drift",) if drifts else ()), *forces)
+    drifts = trace.slide is not None or any(finding.kind == "drift" for finding in trace.findings)
+    return (*(("drift",) if drifts and trace.time is not None else ()), *forces)
 
 
 def _steepest(trace: Trace) -> float:

@@ -16,13 +16,15 @@ from punctura.identify.sensor import SensedModel
 from punctura.identify.whitening import Whitening
 from punctura.trace import Trace, TraceError
 from punctura.trace.air import spread
-from punctura.trace.rig_force import shapes
+from punctura.trace.friction import friction_of_slide
+from punctura.trace.rig_force import KEPT, RIG_FORCES, shapes
 
 Array = NDArray[np.float64]
 
 NEARLY = 30.0  # variances of a sample by which another search may be worse and still count
 FURTHER, LITTLE = 30, 0.1  # evaluations of a round after the last one, and what it must gain
 NEAR = 2  # samples on both sides, for a speed
+_KEPT = [ZERO.index(RIG_FORCES[i]) for i in KEPT]
 ROUNDS = 20  # of them, at most
 HOPELESS = 2.0  # times the squares of the best search so far: one that creeps above them goes on no longer
 
@@ -53,6 +55,10 @@ class Misfit:
         self._model = SensedModel(parameters.needle, trace.depth, trace.time)
         since = np.zeros(len(trace)) if trace.time is None else trace.time - trace.time[0]
         self._nuisance = np.column_stack((np.ones(len(trace)), since, shapes(trace)))
+        self._subtracted = np.array(trace.rig_sizes)[list(KEPT)]
+        if trace.slide is not None:
+            self._nuisance[:, _KEPT] = 0.0
+            self._rubbed = friction_of_slide(trace.slide, *self._subtracted)[0]
 
     def free(self, names: Sequence[str], base: Parameters) -> Free:
         """These parameters as the free ones of a fit to this trace; all others are as in `base`."""
@@ -73,7 +79,13 @@ class Misfit:
 
     def of_rig(self, parameters: Parameters) -> Array:
         """What sensor and rig add at every sample (n,), N: offset, drift, friction of the slide, pull of a cable."""
-        return np.asarray(self._nuisance @ parameters.nuisance[: len(ZERO)])
+        linear = np.asarray(self._nuisance @ parameters.nuisance[: len(ZERO)])
+        return linear if self.trace.slide is None else linear + self._friction(parameters)[0] - self._rubbed
+
+    def _friction(self, parameters: Parameters) -> tuple[Array, Array]:
+        """Friction of the slide that a rest keeps, with what is subtracted of it, and its derivatives."""
+        assert self.trace.slide is not None
+        return friction_of_slide(self.trace.slide, *(self._subtracted + parameters.nuisance[_KEPT]))
 
     def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Model minus measured force at the used samples, N. blur: see blurred()."""
@@ -83,8 +95,12 @@ class Misfit:
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:
         """Derivatives of the residuals by the coordinates."""
         self.evaluations += 1
-        by_model, by_late = self._model.jacobian(free.parameters(u), free.kinds, free.late)
-        by_all = np.hstack((by_model, self._nuisance, by_late))
+        parameters, by_rig = free.parameters(u), self._nuisance
+        by_model, by_late = self._model.jacobian(parameters, free.kinds, free.late)
+        if self.trace.slide is not None:
+            by_rig = by_rig.copy()
+            by_rig[:, _KEPT] = self._friction(parameters)[1]
+        by_all = np.hstack((by_model, by_rig, by_late))
         return self._weighted(blurred(by_all @ free.derivatives(u), blur))
 
     def _weighted(self, columns: Array) -> Array:

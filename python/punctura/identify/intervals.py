@@ -16,7 +16,7 @@ from punctura.identify.profile import Watch, bound
 from punctura.identify.start import other_grips
 from punctura.identify.uncertainty import Uncertainty
 from punctura.trace import Trace, TraceError
-from punctura.trace.rig_force import RIG_FORCES
+from punctura.trace.rig_force import RIG_FORCES, SLIDE_WAY
 
 Array = NDArray[np.float64]
 
@@ -176,6 +176,9 @@ def _bounds(uncertainty: Uncertainty, j: int, used: float, watch: Watch) -> tupl
             return None, None
         return value - spread, value + spread
     found = bound(uncertainty, j, -1, used, watch), bound(uncertainty, j, 1, used, watch)
+    if fit.free.names[j] == "slide_way":
+        none = -fit.misfit.trace.rig_sizes[SLIDE_WAY]  # it is positive, also where the fit does not say so
+        return (none if found[0] is None else max(found[0], none)), found[1]
     if kind_of(fit.free.names[j]) != "offset":
         return found
     air = float(fit.free.low[j]), float(fit.free.high[j])  # it bounds the offset where the fit does not

@@ -36,7 +36,7 @@ _RANGES = {  # from microneedles (1 mN) to trocars (500 N)
     "relaxation_1_stiffness": (0.0, 1e7), "relaxation_1_time": (1e-3, 1e3),
     "relaxation_2_stiffness": (0.0, 1e7), "relaxation_2_time": (1e-3, 1e4), "surface": (-1.0, 1.0),
     "lag": (0.0, LATEST["lag"]), "delay": (-LATEST["delay"], LATEST["delay"]), "play": (0.0, LATEST["play"]),
-    "slack": (0.0, LATEST["slack"]),
+    "slack": (0.0, LATEST["slack"]), "slide_way": (-1e-3, 1e-3),  # beside the one that is subtracted
 }  # fmt: skip
 
 

@@ -82,7 +82,6 @@ def verdicts(
     return (
         *_springs(fit),
         *_cable(trace),
-        *_turning(fit),
         *unknown,
         *_not_seen(trace, segments),
         *_drifting(fit, air, explained, whitened),
@@ -108,16 +107,6 @@ def _cable(trace: Trace) -> Iterator[str]:
             "The values hold if the force that grows with the depth in air is that of a cable, and goes on so in the "
             "tissue. A soft layer that springs back looks the same in air, and deeper in it may not go on so: then the "
             "intervals do not hold. To tell: move over the same depths in air without tissue."
-        )
-
-
-def _turning(fit: Fit) -> Iterator[str]:
-    """Friction that a rest keeps turns where the spring unloads."""
-    if "slide_friction_before" in fit.free.names:
-        yield (
-            "The friction of the slide turns where the spring between needle and tissue unloads, over a way that the "
-            "air tells only roughly: the interval of coupling_stiffness is too narrow. To tell: turn several times in "
-            "air, slowly."
         )
 
 

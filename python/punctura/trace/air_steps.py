@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.slide import Slide
+from punctura.trace.friction import Slide
 from punctura.trace.steps import rounding
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -20,7 +20,7 @@ RESTS, SLOWLY = 3, 3.0  # changes in both rests, and times the greatest of them:
 
 def beginning(trace: Trace, slide: Slide, way: float) -> tuple[Array, Array, Array]:
     """The force in the rest before the first motion, soon after it, and a little later, N."""
-    start = int(slide.turns[0]) if len(slide.turns) else 0
+    start = int(np.argmax(slide.way > 0))
     gone = slide.way[start:]
     end = start + int(np.argmax(gone > BEGIN * way)) if gone[-1] > BEGIN * way else start
     quarter = start + int(np.argmax(gone > 0.25 * BEGIN * way))

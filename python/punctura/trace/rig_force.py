@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace import air_steps
-from punctura.trace.slide import Slide, ending, slide_of
+from punctura.trace.friction import Slide, friction_of_slide
+from punctura.trace.slide import ending, slide_of
 from punctura.trace.steps import rounding
 from punctura.trace.trace import Finding, Trace
 from punctura.trace.turns import noise_of
@@ -26,7 +27,8 @@ Array = NDArray[np.float64]
 # m, over which it rises where the slide turns; N/m, of the depth
 RIG_FORCES = ("slide_friction", "slide_friction_out", "slide_friction_before", "slide_way", "cable_stiffness")
 FOUND = RIG_FORCES[0], RIG_FORCES[-1]  # the findings
-BEFORE, SLIDE_WAY = 2, 3  # one of the beginning alone, and one that is of no force itself
+KEPT = 0, 2, 3  # those of friction that a rest keeps: the last one is of no force itself
+BEFORE, SLIDE_WAY = KEPT[1:]
 PARTS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05)  # of the way down, that may be air
 FEWEST, BLOCK = 40, 10  # samples of air; neighbours whose mean must be no more than noise
 SURE, ALIKE = 6.0, 4.0  # standard errors of a force; standard deviations of chance, of what all blocks leave
@@ -36,7 +38,7 @@ SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
 WAYS = (0.0, *np.geomspace(2e-6, 1e-3, 19))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
 FINER = 6  # between two of them
-STEP = 0.02  # of such a way, for a derivative
+AT_ONCE = 0.5  # of the way between two samples: they do not tell a shorter one
 QUICK = 0.3  # of a friction: two samples between which it rises by more tell only when the slide began to move
 ITSELF = 1.15  # times the friction that a slide keeps from before: it is no more than itself
 
@@ -92,13 +94,12 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
         rig[:, :ways], given[:ways] = friction.columns, sizes[:-1]
         if kept:
             rig[:, BEFORE], given[BEFORE] = friction.before, chosen.others[0]
-        by_way = sizes[0] * friction.by_way
-        if friction.way and np.max(np.abs(by_way)) * friction.way > noise_of(trace.force):  # else nothing tells it
-            rig[:, SLIDE_WAY], given[SLIDE_WAY] = by_way, friction.way
+            rig[:, SLIDE_WAY], given[SLIDE_WAY] = friction.by_way, friction.way
     if seen[1]:
         rig[:, -1], given[-1] = cable, sizes[-1]
     force = trace.force - np.delete(rig, SLIDE_WAY, axis=1) @ np.delete(given, SLIDE_WAY)
-    return replace(trace, force=force, rig=rig, rig_sizes=tuple(given.tolist())), found
+    of = slide if kept and seen[0] else None
+    return replace(trace, force=force, rig=rig, rig_sizes=tuple(given.tolist()), slide=of), found
 
 
 def with_friction_at_ends(trace: Trace) -> Trace:
@@ -107,7 +108,7 @@ def with_friction_at_ends(trace: Trace) -> Trace:
     Both ends of the trace may be under it, and no turn in air tells its size.
     """
     rig, slide = shapes(trace).copy(), slide_of(trace)
-    if rig[:, 0].any() or not len(slide.turns):
+    if rig[:, 0].any() or not len(slide.signs):
         return trace
     friction, before = slide.kept(0.0)
     rig[:, 0] = friction + slide.signs[0] * before
@@ -207,16 +208,17 @@ class _Keeping:
             return None
         finer = np.linspace(WAYS[max(at - 1, 0)], WAYS[at + 1], 2 * FINER + 1).tolist()
         over = min(finer, key=lambda one: self._left(self._slide.kept(one), rows))
+        over = max(over, AT_ONCE * self._slide.step)  # else a fit finds no other way
         friction, before = self._slide.kept(over)
         longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
         told = [0, 1] if _moves_at_both(trace, ends) else [0]
         known, own = np.column_stack((friction, self._cable)), np.column_stack((before, self._one))
         found = _solved(trace, rows, known, own, told, longest)
+        if found is None:  # a drift that need not be there makes all uncertain
+            found = _solved(replace(trace, time=None), rows, known, own, told, longest)
         if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
             return None
-        first = found.others[0] / found.sizes[0]  # N, in the beginning
-        low, high = (self._slide.kept(over * (1 + step)) for step in (-STEP, STEP))
-        by_way = (high[0] - low[0] + first * (high[1] - low[1])) / max(2 * STEP * over, 1e-300)
+        by_way = friction_of_slide(self._slide, found.sizes[0], found.others[0], over)[1][:, -1]
         return _Friction(friction[:, None], over, by_way, before), found
 
     def _left(self, shape: tuple[Array, Array], rows: NDArray[np.int64]) -> float:

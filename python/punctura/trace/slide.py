@@ -1,13 +1,12 @@
-"""How the slide of a rig moves, and what friction of 1 N on it adds to the force."""
+"""How the slide of a rig moves, and what friction that ends in a rest adds to the force."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from punctura.trace.air import smooth
+from punctura.trace.friction import Slide
 from punctura.trace.segment import segment
 from punctura.trace.trace import Trace
 from punctura.trace.turns import noise_of
@@ -30,35 +29,6 @@ def ending(trace: Trace) -> tuple[Array, Array]:
     return smooth(found, 3)[:, None], each
 
 
-@dataclass(frozen=True)
-class Slide:
-    """How a slide moves. Noise of the depth is no motion."""
-
-    way: Array  # (n,) m, how far it went in all, from the first sample on
-    turns: NDArray[np.int64]  # (t,) the first sample of each motion in one direction
-    signs: Array  # (t,) 1: inwards
-
-    def kept(self, over: float) -> tuple[Array, Array]:
-        """Friction that a rest keeps and that rises over so many m, in parts of itself (n,): from 0 on, and
-        what is left of the friction before the first sample.
-        """
-        if over == 0:
-            return self._kept_at_once()
-        left = np.exp(-self.way / over)
-        found, last = np.zeros(len(self.way)), 0.0
-        for start, end, sign in zip(self.turns, [*self.turns[1:], len(self.way)], self.signs, strict=True):
-            before = max(int(start) - 1, 0)
-            found[start:end] = sign + (last - sign) * np.exp((self.way[before] - self.way[start:end]) / over)
-            last = found[end - 1]
-        return found, left
-
-    def _kept_at_once(self) -> tuple[Array, Array]:
-        found = np.zeros(len(self.way))
-        for start, sign in zip(self.turns, self.signs, strict=True):
-            found[start:] = sign
-        return found, (self.way == 0).astype(float)
-
-
 def slide_of(trace: Trace) -> Slide:
     play = NOISES * noise_of(trace.depth)
     if play == 0:
@@ -72,4 +42,5 @@ def slide_of(trace: Trace) -> Slide:
     moved = np.flatnonzero(steps)
     signs = np.sign(steps[moved])
     first = np.flatnonzero(np.diff(signs, prepend=0.0)) if len(moved) else np.empty(0, np.int64)
-    return Slide(np.cumsum(np.abs(steps)), moved[first], signs[first])
+    way = np.cumsum(np.abs(steps))
+    return Slide(way, way[moved[first] - 1], signs[first])

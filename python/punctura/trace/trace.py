@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from punctura._core import PuncturaError
 from punctura.errors import IncompleteCallError
 from punctura.trace.air import without_turns_in_air
+from punctura.trace.friction import Slide
 from punctura.trace.turns import depth_hysteresis, insertion_numbers
 
 Array = NDArray[np.float64]
@@ -66,6 +67,7 @@ class Trace:
     depths: Array | None = field(default=None, repr=False)  # (m, n) m, draws of the true depth; None: it is exact
     rig: Array | None = field(default=None, repr=False)  # (n, 5) shapes of the rig's own forces (rig_force.py), if any
     rig_sizes: tuple[float, ...] = field(default=(0.0,) * 5, repr=False)  # SI, of these that are subtracted
+    slide: Slide | None = field(default=None, repr=False)  # whose friction a rest keeps, if the air shows it
 
     def __post_init__(self) -> None:
         for name in ("depth", "force", "time"):
@@ -96,7 +98,9 @@ class Trace:
         time = None if self.time is None else self.time[which]
         depths = None if self.depths is None else self.depths[:, which]
         rig = None if self.rig is None else self.rig[which]
-        return replace(self, depth=self.depth[which], force=self.force[which], time=time, depths=depths, rig=rig)
+        slide = None if self.slide is None else self.slide[which]
+        columns = {"depth": self.depth[which], "force": self.force[which], "time": time, "depths": depths}
+        return replace(self, **columns, rig=rig, slide=slide)
 
     @cached_property
     def strokes(self) -> NDArray[np.int64]:
