@@ -43,6 +43,20 @@ using PiecesOf = std::remove_cvref_t<typename detail::GivenPieces<L>::Type>;
 template <typename L>
 inline constexpr bool is_proven = false;
 
+/// Whether a law may go on from the state of the proxy that another law had inside the wall. Proven laws go on from
+/// each other. An own law goes on from its own kind only: nobody knows what it does with the state of another one.
+template <typename L, typename Before>
+constexpr bool goes_on_from(const L& law, const Before& before) noexcept {
+  if constexpr (is_proven<L> && is_proven<Before>)
+    return true;
+  else if constexpr (!std::is_same_v<L, Before>)
+    return false;
+  else if constexpr (requires { law.is_kind_of(before); })
+    return law.is_kind_of(before);
+  else
+    return true;
+}
+
 /// The pieces of an untouched membrane for cos_beta. Without it: for an obliquity of the law's own, or along the
 /// normal.
 template <Law L, typename... Angle>
@@ -179,6 +193,17 @@ constexpr bool check_memory() noexcept {
                 "pieces(Scalar cos_beta, const Memory&) const noexcept, of the same type as pieces(); and, where the "
                 "law has them, bool leave(Memory&) const noexcept and refresh(its pieces&, const Memory&) const "
                 "noexcept. Look for a const or noexcept that is missing, a result that is not bool, a private member");
+  return true;
+}
+
+/// Stops the compiler at a class that is no law for a scene, with the likely causes. Otherwise true.
+template <typename L>
+constexpr bool check_law() noexcept {
+  static_assert(ObliqueLaw<L>,
+                "the class is no law for a scene. It needs, in public: using Scalar = double (or float); and "
+                "pieces(Scalar cos_beta) const noexcept or pieces(Scalar cos_beta, const Memory&) const noexcept, with "
+                "a PiecewiseBand or ManyPieces of Scalar as result. Look for a missing const, noexcept or argument "
+                "cos_beta. See Law in punctura/model/law.hpp and docs/core.md");
   return true;
 }
 

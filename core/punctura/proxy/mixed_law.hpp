@@ -152,6 +152,11 @@ class MixedLaw {
     return flawed;
   }
 
+  /// For goes_on_from().
+  constexpr bool is_kind_of(const MixedLaw& other) const noexcept {
+    return law_.index() == other.law_.index() || (uses_proven() && other.uses_proven());
+  }
+
   void describe(auto& parameters) const {
     visit([&]<std::size_t>(const auto& law) {
       if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
@@ -170,6 +175,11 @@ class MixedLaw {
   template <std::size_t i>
   using Each = std::tuple_element_t<i, std::tuple<Laws...>>;
 
+  constexpr bool uses_proven() const noexcept {
+    bool proven = false;
+    visit([&]<std::size_t i>(const auto&) { proven = is_proven<Each<i>>; });
+    return proven;
+  }
   constexpr bool advance_any(Memory& memory, Scalar depth, Scalar dt) const noexcept {
     bool changed = false;
     visit([&]<std::size_t i>(const auto& law) {

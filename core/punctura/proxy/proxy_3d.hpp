@@ -52,7 +52,8 @@ class Proxy3d {
   /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
   ///
   /// Memory of the same type is kept. Otherwise the branches of the coupling begin without force, and a law with memory
-  /// begins with an untouched wall. A needle that is inside has cut up to its present depth.
+  /// begins with an untouched wall. A needle that is inside has cut up to its present depth. With a law that does not go
+  /// on from the previous one, it is barred.
   template <typename OtherLaw, typename OtherCoupling>
   constexpr void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
     const auto& old = previous.state();
@@ -65,6 +66,11 @@ class Proxy3d {
     }
     if constexpr (std::is_same_v<decltype(state_.law), std::remove_cvref_t<decltype(old.law)>>) state_.law = old.law;
     if (!inside(state_.phase)) return;
+    if (!goes_on_from(params_.law, previous.law())) {
+      state_.phase = Phase::barred;
+      state_.f = {};
+      return;
+    }
     if constexpr (LawWithMemory<L>) {
       const auto depth = params_.n.dot(position() - params_.a) / state_.cos_beta;
       advance_memory(params_.law, state_.law, depth, Scalar(0));
