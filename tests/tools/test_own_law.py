@@ -24,12 +24,16 @@ punctura::Proxy3d space(Own{}, punctura::Vector3d(), punctura::Vector3d(0, -1, 0
 ADVANCE = "bool advance(Memory&, double) const noexcept { return true; }"
 
 
-def compiled(tmp_path: Path, memory: str, advance: str = ADVANCE) -> subprocess.CompletedProcess[str]:
+def checked(tmp_path: Path, program: str) -> subprocess.CompletedProcess[str]:
     source = tmp_path / "own.cpp"
-    source.write_text(PROGRAM.replace("MEMORY", memory).replace("ADVANCE", advance))
+    source.write_text(program)
     compiler = os.environ.get("CXX") or shutil.which("c++") or shutil.which("g++") or "clang++"
-    command = [compiler, "-std=c++20", f"-I{ROOT / 'core'}", "-fsyntax-only", str(source)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+    command = [compiler, "-std=c++20", f"-I{ROOT / 'core'}", f"-I{ROOT / 'runtime'}", "-fsyntax-only", str(source)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300)
+
+
+def compiled(tmp_path: Path, memory: str, advance: str = ADVANCE) -> subprocess.CompletedProcess[str]:
+    return checked(tmp_path, PROGRAM.replace("MEMORY", memory).replace("ADVANCE", advance))
 
 
 def test_a_memory_inside_its_law_may_have_initial_values(tmp_path):
@@ -64,3 +68,65 @@ def test_a_function_of_a_memory_in_another_form_is_refused_with_the_cause(tmp_pa
     done = compiled(tmp_path, "double cut;", advance)
     assert done.returncode != 0
     assert "bool advance(Memory&, Scalar depth) const noexcept" in done.stderr
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        "Pieces pieces(double) const noexcept { return {}; }",
+        "using Scalar = double; Pieces pieces() const noexcept { return {}; }",
+        "using Scalar = double; Pieces pieces(double) const { return {}; }",
+        "using Scalar = double; private: Pieces pieces(double) const noexcept { return {}; }",
+    ],
+)
+def test_a_class_that_is_no_law_for_a_scene_is_refused_with_the_cause(tmp_path, law):
+    done = checked(
+        tmp_path,
+        f"""#include "punctura/punctura.hpp"
+        using Pieces = punctura::PiecewiseBand<double, 2>;
+        struct Own {{ {law} }};
+        auto built(const punctura::Scene& scene, std::vector<punctura::Problem>& problems) {{
+          return punctura::try_build<double>(scene, problems, [](auto&&...) {{ return Own{{}}; }});
+        }}""",
+    )
+    assert done.returncode != 0
+    assert "It needs, in public: using Scalar = double" in done.stderr
+
+
+MODEL = """#include "punctura_runtime/loop/step_maker.hpp"
+using namespace punctura;
+struct Own {
+  using Scalar = double;
+  using StoredIn = HeapStorage;
+  void reset() noexcept {}
+  void resume(const Own&) noexcept {}
+  Vector3d step(const Vector3d&, const Vector3d&) noexcept { return {}; }
+  Vector3d tip() const noexcept { return {}; }
+  bool uses_axis() const noexcept { return false; }
+  bool outside() const noexcept { return true; }
+  std::size_t size() const noexcept { return 1; }
+  SpaceTick<double> tick(std::size_t) const noexcept { return {}; }
+  double cos_beta(std::size_t) const noexcept { return 1; }
+};
+StepMaker maker([](const Scene&, std::vector<Problem>&) -> std::optional<Own> { return Own{}; });
+"""
+
+
+def test_a_class_with_the_functions_of_a_model_is_one(tmp_path):
+    done = checked(tmp_path, MODEL)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("const Vector3d&) noexcept", "const Vector3d&)"),
+        ("std::size_t size", "int size"),
+        ("using StoredIn = HeapStorage;", "Own() = default; Own(Own&&) = default; using StoredIn = HeapStorage;"),
+    ],
+)
+def test_a_class_that_is_no_model_for_a_loop_is_refused_with_the_cause(tmp_path, change):
+    assert MODEL.count(change[0]) == 1
+    done = checked(tmp_path, MODEL.replace(*change))
+    assert done.returncode != 0
+    assert "the nine functions of Model in punctura/servo/servo_step.hpp" in done.stderr

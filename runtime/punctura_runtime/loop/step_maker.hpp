@@ -31,6 +31,11 @@ class StepMaker {
   template <GivesModel ModelOf>
   StepMaker(ModelOf model_of)
       : make_([model_of = std::move(model_of)](const Scene& scene, const GateLimits& gate, const ForceLimits& limits) {
+          using M = std::remove_cvref_t<decltype(*model_of(scene, std::declval<std::vector<Problem>&>()))>;
+          static_assert(Model<M> && std::copy_constructible<M>,
+                        "the class is no model for a servo step. It needs using Scalar, using StoredIn and the nine "
+                        "functions of Model in punctura/servo/servo_step.hpp, each noexcept and of that type, and a "
+                        "copy constructor");
           return AnyStep::of(detail::or_throw([&](auto& problems) {
             problems = check(scene);
             auto model = problems.empty() ? model_of(scene, problems) : decltype(model_of(scene, problems))();
