@@ -52,8 +52,8 @@ class Proxy3d {
   /// Takes over the state of another proxy at the same membrane, but keeps its own law and coupling.
   ///
   /// Memory of the same type is kept. Otherwise the branches of the coupling begin without force, and a law with memory
-  /// begins with an untouched wall. A needle that is inside has cut up to its present depth. With a law that does not go
-  /// on from the previous one, it is barred.
+  /// begins with an untouched wall. A needle that is inside has cut up to its present depth. It is barred if the law
+  /// does not go on from the previous one.
   template <typename OtherLaw, typename OtherCoupling>
   constexpr void resume(const Proxy3d<OtherLaw, OtherCoupling>& previous) noexcept {
     const auto& old = previous.state();

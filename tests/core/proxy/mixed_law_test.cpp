@@ -140,3 +140,41 @@ TEST_CASE("a scene can mix laws, and a tick allocates no memory") {
     CHECK(cut.state().law.cut > 1e-3);
   }
 }
+
+TEST_CASE("a law of another kind that comes while the tip is inside gives no force until the tip was in front") {
+  const auto of = [](const auto& law) {
+    return build<double>(paper_scene(1e-3), [law](auto&&...) { return MixedLaw<ThickLaw, TissueLaw, CutLaw>(law); });
+  };
+  auto firmer = paper_membrane(1e-3);
+  firmer.stiffness = 700;
+  const ThickLaw wall(paper_needle, paper_membrane(1e-3)), firm(paper_needle, firmer);
+  const TissueLaw tissue(paper_needle, paper_membrane(1e-3), {});
+  const auto phase_after = [&](const auto& before, const auto& after) {
+    auto step = of(before), next = of(after);
+    step.arm();
+    std::uint64_t k = 0;
+    for (; k < 1600; ++k) step.step(reading(k, 2e-3 - 5e-3 * static_cast<double>(k) / 1600));
+    const double held = step.snapshot().force[1];
+    CHECK(held > 0.3);
+    next.resume(step);
+    const Phase phase = next.step(reading(k++, -3e-3)).membranes[0].phase;
+    if (phase == Phase::barred) {
+      for (double last = held; k < 2000; ++k) {
+        const double force = next.step(reading(k, -3e-3)).force[1];
+        CHECK(force <= last);
+        CHECK(last - force < 1.01 * held * T / ServoStep::fade_time);
+        last = force;
+      }
+      CHECK(next.snapshot().force == std::array<double, 3>{});
+      for (int i = 1; i <= 3200; ++i) next.step(reading(k++, i < 1600 ? -3e-3 + 3e-6 * i : 1.8e-3 - 3e-6 * (i - 1600)));
+      CHECK(next.snapshot().force[1] > 0.3);
+      CHECK(next.snapshot().membranes[0].phase != Phase::barred);
+    }
+    return phase;
+  };
+  CHECK(phase_after(wall, CutLaw{}) == Phase::barred);
+  CHECK(phase_after(CutLaw{}, wall) == Phase::barred);
+  CHECK(phase_after(CutLaw{}, CutLaw{}) != Phase::barred);
+  CHECK(phase_after(wall, firm) != Phase::barred);
+  CHECK(phase_after(wall, tissue) != Phase::barred);  // both are laws of the package
+}
