@@ -62,13 +62,14 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
 def _sound(tables: Tables, wrong: Collection[str]) -> Tables:
     """The tables with something else for each wrong key that is needed: the other keys are checked, too."""
     sound = Tables(title="-", question="-", scene="-", method="constant", task="yes_no")
-    sound["stimulus"] = {"variable": "", "levels": [1, 2, 3]}
+    stimulus = {"variable": "", "levels": [1, 2, 3]}
+    sound["stimulus"] = stimulus
     for key, value in tables.items():
         if key in wrong:
             continue
         if isinstance(value, dict):
             kept = {inner: one for inner, one in value.items() if path_of((key, inner)) not in wrong}
-            sound[key] = {**sound["stimulus"], **kept} if key == "stimulus" else kept
+            sound[key] = {**stimulus, **kept} if key == "stimulus" else kept
         else:
             sound[key] = value
     return sound
@@ -180,7 +181,7 @@ def _reference(file: ProtocolFile) -> Iterator[Row]:
 def _paths(file: ProtocolFile, scene: Scene) -> Iterator[Row]:
     given, known = file.stimulus, [one.path for one in scene.fields()]
     quantity = given.variable in QUANTITIES
-    asked = [(path_of(("values", path)), path, value) for path, value in file.values.items()]
+    asked: list[tuple[str, str, object]] = [(path_of(("values", path)), path, v) for path, v in file.values.items()]
     key, path = ("solve", given.solve or "") if quantity else ("variable", given.variable)
     asked.append((f"stimulus.{key}", path, path))
     for key, path, value in asked:
