@@ -27,6 +27,7 @@ ZOOMED = (720, 450)  # a laptop at a zoom of 200 %
 SCROLLS = 1080  # px: below this width the page scrolls
 TOUCHED = 1024  # px: up to this width, fingers are the usual pointer
 STILL_MS = 1500  # until plots and view are drawn
+COLOURS = 208  # of a picture; more are not seen, and cost a twentieth of its size
 RESTS = """() => {
   const view = document.querySelector(".view canvas");
   return !view?.clientWidth || Math.abs(view.width - 2 * view.clientWidth) <= 2;
@@ -83,13 +84,16 @@ def opened(
 
 
 def save(page: Page, path: Path) -> None:
-    page.wait_for_timeout(STILL_MS)
-    page.wait_for_function(RESTS)
     size = page.viewport_size
     assert size
     scrolls = size["width"] < SCROLLS and not page.get_by_role("dialog").count()  # a dialog covers what it scrolls
-    picture = scrolled(page, size["height"]) if scrolls else pictured(page)
-    picture.quantize(256).save(path, optimize=True)
+    page.wait_for_timeout(STILL_MS)
+    rests = False
+    while not rests:
+        page.wait_for_function(RESTS)
+        picture = scrolled(page, size["height"]) if scrolls else pictured(page)
+        rests = page.evaluate(RESTS)  # it did not move meanwhile
+    picture.quantize(COLOURS).save(path, optimize=True)
     print(path, flush=True)
 
 
