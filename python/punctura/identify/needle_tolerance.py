@@ -26,10 +26,10 @@ def with_tolerance(found: Sequence[Estimate], of: Fit, rig: Rig) -> tuple[Estima
     bound is known.
     """
     p = of.parameters
-    bases = [[replace(p, needle=needle) for needle in ends] for ends in _ends(p.needle, rig)]
-    bases += [[p.with_values({name: end}) for end in ends] for name, ends in _late_ends(rig)]
-    for ends in bases:
-        moved = [_values_with(base, of) for base in ends]
+    bases = [("", [replace(p, needle=needle) for needle in ends]) for ends in _ends(p.needle, rig)]
+    bases += [(name, [p.with_values({name: end}) for end in ends]) for name, ends in _late_ends(rig)]
+    for held, ends in bases:  # the delay of a filter that is not known may be free, too
+        moved = [_values_with(base, of, held) for base in ends]
         found = [_widened(one, of.free, j, [each[j] for each in moved]) for j, one in enumerate(found)]
     return tuple(found)
 
@@ -72,18 +72,20 @@ def _late_ends(rig: Rig) -> Iterator[tuple[str, tuple[float, float]]]:
             yield name, (low if name == "delay" else max(low, 0.0), value + tolerance)
 
 
-def _values_with(base: Parameters, of: Fit) -> Array:
-    """The best values (p,) where what is not free is as in `base`; NaN where no fit succeeds. It begins with the pops
-    where they are.
+def _values_with(base: Parameters, of: Fit, held: str) -> Array:
+    """The best values (p,) where what is not free, and `held`, is as in `base`; NaN where no fit succeeds. It begins
+    with the pops where they are.
     """
     old = of.misfit
+    kept = [j for j, name in enumerate(of.free.names) if name != held]
+    names = [of.free.names[j] for j in kept]
     try:
-        start = old.free(of.free.names, base).parameters(of.u)
+        start = old.free(names, base).parameters(of.u[kept])
         misfit = Misfit(old.trace, start, old.used, old.zero, old.depth_error, old.whitening)
-        end = fit(misfit, of.free.names, start)
+        end = fit(misfit, names, start).parameters
     except ValueError:  # TraceError; or a friction that jams this needle
         return np.full(len(of.u), np.nan)
-    return end.free.values(end.u)
+    return np.array([end.get(name) for name in of.free.names])
 
 
 def _widened(one: Estimate, free: Free, j: int, moved: Sequence[float]) -> Estimate:

@@ -33,11 +33,17 @@ def smeared_rig(rig: Rig, time: float) -> Rig:
 
 
 def smeared_walls(found: Sequence[Estimate], trace: Trace) -> tuple[Estimate, ...]:
-    """The estimates, where each wall may be thinner by the way between two samples: so far a filter smears its pop."""
+    """The estimates, where each wall may be thinner by the way between two samples: so far a filter smears its pop.
+
+    A filter that makes the force late, in a form that is not known, makes the spring seem softer.
+    """
     way = float(np.median(np.abs(np.diff(trace.depth))))
+    late = any(one.name in ("lag", "delay") for one in found)
     return tuple(
         replace(one, low=None if one.low is None or one.low <= way else one.low - way)
         if kind_of(one.name) == "thickness"
+        else replace(one, high=None)
+        if late and one.name == "coupling_stiffness"
         else one
         for one in found
     )
@@ -49,6 +55,7 @@ def smeared_words(before: Trace, after: Trace) -> tuple[str, ...]:
         return ()
     return (
         f"The force was smoothed or filled in, so {len(after)} of {len(before)} samples are used, and the intervals "
-        "allow for a filter that is late by the time between them, and for thinner walls. "
+        "allow for a filter that is late by the time between them, for thinner walls and, if the force comes late, "
+        "for a stiffer spring. "
         "Export the force as it is measured.",
     )
