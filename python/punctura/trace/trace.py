@@ -99,8 +99,8 @@ class Trace:
         depths = None if self.depths is None else self.depths[:, which]
         rig = None if self.rig is None else self.rig[which]
         slide = None if self.slide is None else self.slide[which]
-        columns = {"depth": self.depth[which], "force": self.force[which], "time": time, "depths": depths}
-        return replace(self, **columns, rig=rig, slide=slide)
+        depth, force = self.depth[which], self.force[which]
+        return replace(self, depth=depth, force=force, time=time, depths=depths, rig=rig, slide=slide)
 
     @cached_property
     def strokes(self) -> NDArray[np.int64]:
