@@ -21,7 +21,7 @@ STUBS = """
     async resume() {}
     async suspend() {}
   };
-  window.GainNode = window.BiquadFilterNode = Node_;
+  window.GainNode = window.BiquadFilterNode = window.IIRFilterNode = Node_;
   window.AudioBufferSourceNode = class extends Node_ {
     start() { window.heard.push(this.options.loop ? "friction" : "click"); }
   };

@@ -114,7 +114,6 @@ def main(kills: int = 10, seed: int = 1) -> None:
         try:
             with opened(browser, studio.url, script=SOON, bench=False) as page:
                 page.set_viewport_size({"width": 480, "height": 320})  # less to draw
-                page.route("**/api/noise.wav", lambda route: route.abort())  # 1.7 MB, which no kill concerns
                 page.locator(".stage-sentence", has_text="agree").wait_for()
                 while not on_disk(folder):
                     act(page)

@@ -54,8 +54,6 @@ class Activity(Protocol):
 class Sitting(Protocol):
     """A participant's session: the pages see and do nothing else. docs/perception.md"""
 
-    sound: bytes  # masking noise, a WAV file; empty without
-
     def respond(self, question: int, answer: str) -> None:
         """The answer of a page, in the worker's thread."""
 

@@ -160,11 +160,6 @@ class Studio:
         headers = {"content-disposition": 'attachment; filename="scene.toml"'}
         return Response(text, media_type="application/toml; charset=utf-8", headers=headers)
 
-    async def noise(self, request: Request) -> Response:
-        """Masking noise for a participant's session."""
-        sitting = self.session.sitting
-        return Response(sitting.sound, media_type="audio/wav") if sitting else Response(status_code=404)
-
     async def socket(self, socket: WebSocket) -> None:
         if PROTOCOL not in socket.scope.get("subprotocols", []):
             await socket.close(1002, f"The socket speaks {PROTOCOL}.")
@@ -179,7 +174,6 @@ class Studio:
             Route("/api/schema", self.schema),
             Route("/api/exercise-schema", self.exercise_schema),
             Route("/api/scene.toml", self.scene),
-            Route("/api/noise.wav", self.noise),
             *Api(self.session).routes(),
             WebSocketRoute("/ws", self.socket),
             self.figures.index(),

@@ -21,7 +21,6 @@ from punctura.defects import explain
 from punctura.errors import sentence_of
 from punctura.events import crossing
 from punctura.perception.course import Trial, counted
-from punctura.perception.noise import pink_noise
 from punctura.perception.protocol import Protocol
 from punctura.perception.session import DiskFullError, agreed, recordings
 from punctura.perception.session import Session as Answers
@@ -36,7 +35,6 @@ from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 GO = {"go_on": "Enter"}
 ENDED = Spoilt("failed", "the ticks have ceased: check the connection of the device")
 MEND = "mend this (on a full disk, make space)"
-NOISE_S = 20
 Then = Callable[[str], None]  # gets an answer
 
 
@@ -54,7 +52,6 @@ class PerceptionSitting:
         The answers are beside the studio's recordings. Raises SessionError.
         """
         self._tell = tell
-        self.sound = pink_noise(NOISE_S) if protocol.file.noise else b""
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
         self._words, self._folder = protocol.file.words, studio.shelf.folder
         self._shown = SittingMessage(

@@ -2,16 +2,13 @@
 
 import csv
 import errno
-import io
 import json
 import os
 import random
 import re
-import wave
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from protocols import COMPARES, RIGHT, YES, written
@@ -25,7 +22,6 @@ from punctura.perception import (
     load_protocol,
     read_session,
 )
-from punctura.perception.noise import pink_noise
 from punctura.perception.observer import Senses
 from punctura.perception.report import DICTIONARY, write_report
 from punctura.perception.session import agreed
@@ -204,13 +200,3 @@ def test_a_report_says_what_so_few_answers_do_not_tell(tmp_path: Path) -> None:
         assert write_report(simulation.protocol, tmp_path / str(few)).people[0].reason == ""
         report = (tmp_path / str(few) / "report.md").read_text()
         assert few == ("24 answers at a level do not tell which" in report) == ("for people who seldom lapse" in report)
-
-
-def test_masking_noise_has_as_much_power_in_each_octave() -> None:
-    with wave.open(io.BytesIO(pink_noise(2))) as file:
-        rate, sound = file.getframerate(), np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(float)
-    assert len(sound) == 2 * rate and abs(sound).max() == 32_767
-    power, hertz = abs(np.fft.rfft(sound)) ** 2, np.fft.rfftfreq(len(sound), 1 / rate)
-    octaves = [power[(hertz >= low) & (hertz < 2 * low)].sum() for low in (100, 400, 1600, 6400)]
-    assert octaves == pytest.approx([octaves[0]] * 4, rel=0.02)
-    assert abs(sound[0] - sound[-1]) < 5 * np.diff(sound).std()  # it can play in a loop

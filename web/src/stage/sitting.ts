@@ -82,40 +82,36 @@ export const sitting: Panel = (root, app) => {
   };
 };
 
+/** Pink noise is white noise, whose loop has no click, filtered as in J. O. Smith, Spectral Audio Signal Processing,
+ * 2011; 4: then its largest values are near 1. */
+export const FEEDFORWARD = [0.049922035, -0.095993537, 0.050612699, -0.004408786].map((b) => 4 * b);
+export const FEEDBACK = [1, -2.494956002, 2.017265875, -0.5221894];
+const NOISE_S = 20;
+
 /** Browsers block sound that no key and no click began. An answer by the device's buttons is neither. */
 function maskingNoise(app: App): { begin: () => void; show: () => void; missing: HTMLElement } {
   const missing = element("p", { role: "status", hidden: true }, "Press a key or touch the page for the sound.");
   let context: AudioContext | null = null;
-  let loads = false;
-  let plays = false;
   const show = (): void => {
-    missing.hidden = !app.sitting.value?.noise || (plays && context?.state === "running");
+    missing.hidden = !app.sitting.value?.noise || context?.state === "running";
   };
   const begin = (): void => {
     if (!app.sitting.value?.noise) return;
-    context ??= new AudioContext();
-    context.onstatechange = show;
+    context ??= noise(show);
     void context.resume();
-    if (loads || plays) return;
-    loads = true;
-    play(app, context)
-      .then(() => {
-        plays = true;
-      })
-      .catch((error: unknown) => app.notify(`No masking noise: ${error}`)) // the next key tries again
-      .finally(() => {
-        loads = false;
-        show();
-      });
   };
   return { begin, show, missing };
 }
 
-async function play(app: App, context: AudioContext): Promise<void> {
-  const file = await app.api.get("/api/noise.wav");
-  const noise = context.createBufferSource();
-  noise.buffer = await context.decodeAudioData(await file.arrayBuffer());
-  noise.loop = true;
-  noise.connect(context.destination);
-  noise.start();
+function noise(changed: () => void): AudioContext {
+  const context = new AudioContext();
+  context.onstatechange = changed;
+  const buffer = context.createBuffer(1, NOISE_S * context.sampleRate, context.sampleRate);
+  const samples = buffer.getChannelData(0);
+  for (let i = 0; i < samples.length; i++) samples[i] = 2 * Math.random() - 1;
+  const white = new AudioBufferSourceNode(context, { buffer, loop: true });
+  const pink = new IIRFilterNode(context, { feedforward: FEEDFORWARD, feedback: FEEDBACK });
+  white.connect(pink).connect(context.destination);
+  white.start();
+  return context;
 }

@@ -208,7 +208,7 @@ class SittingMessage(Part):
     answers: list[AnswerKey]  # none: the needle is to be moved
     any_number: bool  # above 0: it is an answer
     covered: bool  # the view is hidden
-    noise: bool  # GET /api/noise.wav plays, in a loop
+    noise: bool  # pink noise plays, which masks the motors
 
 
 class Reply(Part):
