@@ -59,7 +59,7 @@ def without_rig_force(trace: Trace) -> tuple[Trace, list[Finding]]:
     soon = air_steps.beginning(trace, slide, way)
     step = air_steps.step(trace, *soon)
     unexplained = [air_steps.unexplained(step)] if step and air_steps.stands_out(trace, slide, *soon) else []
-    keeping = _Keeping(trace, slide)
+    keeping = _Keeping(trace, slide, bool(unexplained))
     best: list[tuple[_Friction, _Found]] = []
     for part in PARTS:
         deep = begin + part * way
@@ -179,8 +179,9 @@ class _Keeping:
     All ways are compared at the samples that tell with each of them; their shapes are the same for every part of air.
     """
 
-    def __init__(self, trace: Trace, slide: Slide) -> None:
-        self._trace, self._slide = trace, slide
+    def __init__(self, trace: Trace, slide: Slide, steps: bool) -> None:
+        """steps: whether the force steps where the slide begins to move, by more than slow noise."""
+        self._trace, self._slide, self._steps = trace, slide, steps
         self._cable, self._one = trace.depth - trace.depth[0], np.ones(len(trace))
 
     @cached_property
@@ -214,7 +215,7 @@ class _Keeping:
         told = [0, 1] if _moves_at_both(trace, ends) else [0]
         known, own = np.column_stack((friction, self._cable)), np.column_stack((before, self._one))
         found = _solved(trace, rows, known, own, told, longest)
-        if found is None:  # a drift that need not be there makes all uncertain
+        if found is None and self._steps:  # a drift that need not be there makes all uncertain
             found = _solved(replace(trace, time=None), rows, known, own, told, longest)
         if found is None or not found.sizes[0] > 0 or abs(found.others[0]) > ITSELF * found.sizes[0]:
             return None
