@@ -24,7 +24,8 @@ CLEAR, LEAST_CLEAR = 2.0, 4  # widths from the threshold at which a wrong answer
 REVERSED = 4.0  # standard deviations by which the answers go against the level
 LEAST_CELL = 5  # answers for a rate of d'
 RATE, END = 0.45, 0.2  # added to k of n for a rate, taken from none: then d' has the least bias (docs/decisions)
-_POINTS = 200  # of each rate, for the interval of d'
+PRIOR = 0.8  # of each rate, a beta distribution: then the interval of d' holds nearest to 95 % (docs/decisions)
+_POINTS = 200  # of each rate, for that interval
 
 
 class Estimate(NamedTuple):
@@ -287,8 +288,8 @@ def _detection(protocol: Protocol, found: Answers, catch: Answers) -> list[Detec
             continue
         hits, n = np.array([(cell.sum(), len(cell)) for cell in cells], np.float64).T
         never, always = hits == 0, hits == n
-        shares = (np.arange(_POINTS) + 0.5) / _POINTS  # the posterior of each rate with Jeffreys' prior
-        one, other = (ndtri(betaincinv(k + 0.5, m - k + 0.5, shares)) for k, m in zip(hits, n, strict=True))
+        shares = (np.arange(_POINTS) + 0.5) / _POINTS  # of the posterior of each rate
+        one, other = (ndtri(betaincinv(k + PRIOR, m - k + PRIOR, shares)) for k, m in zip(hits, n, strict=True))
         first, second = map(float, ndtri((hits + RATE + END * (always * 1.0 - never)) / (n + 2 * RATE)))
         per = 1 if yes_no else np.sqrt(2)
         dprime = _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always))

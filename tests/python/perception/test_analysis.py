@@ -25,7 +25,7 @@ FAINT = Observer(noise=0.03, criterion=0.285)
 TEXTS = {"compares": COMPARES, "right": RIGHT, "yes": YES}
 READY = {name: file.read_text() for name, file in protocol_files().items()}
 WIDE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 8))  # as without any knowledge of the threshold
-WIDE_FINE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 25))
+WIDE_FINE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 25))  # the same, for methods that choose
 WALL_FINE = with_levels(READY["wall-thickness"], np.geomspace(0.0005, 0.008, 25))
 Row = tuple[str, str, str, int, Observer]
 ROWS: list[Row] = [  # title, protocol, method, trials, observer
@@ -132,35 +132,6 @@ def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row
 
 
 @pytest.mark.statistics
-def test_over_its_prior_95_percent_of_the_intervals_hold_the_threshold(tmp_path: Path) -> None:
-    """Of right answers by staircase: thresholds, exponents of d', lapses and biases that scatter as the fit expects."""
-    loaded, random, found = load_protocol(written(tmp_path, WIDE_FINE)), np.random.default_rng(SEED), []
-    protocol = with_trials(replace(loaded, file=loaded.file.model_copy(update={"method": "staircase"})), 240)
-    for i in range(SESSIONS):
-        place, exponent = np.exp([random.uniform(np.log(0.03), np.log(0.15)), 0.5 * random.standard_normal()])
-        lapse, bias, course, given = random.beta(1, 50), 0.7 * random.standard_normal(), Course(protocol, i), []
-        while (trial := course.next()) is not None:
-            z = ndtri(0.75) * ((trial.shown.level - 0.41) / place) ** exponent + (1 - 2 * trial.position) * bias
-            right = random.random() < lapse / 2 + (1 - lapse) * ndtr(z)
-            answer = ("first", "second")[trial.position ^ (not right)]
-            given.append(line(trial.shown.level, trial.position, answer))
-            course.add(trial, answer)
-        if one := person(protocol, "", given).threshold:
-            found.append((one.low < place < one.high, abs(np.log(exponent))))
-    held, away = np.array(found).T
-    print(f"over the prior {held.mean():.1%}, near 1 {held[away < 0.3].mean():.1%}, far {held[away > 0.8].mean():.1%}")
-    assert 0.92 < held.mean() < 0.98
-
-
-def test_the_just_noticeable_difference_is_that_of_the_noise(senses: dict[str, Senses]) -> None:
-    """Of both intervals together: sqrt(2) times the Weber fraction, and 0.6745 of that up to 75 %."""
-    simulation = Simulation(senses["compares"].protocol, SHARP, senses["compares"])
-    assert simulation.jnd() == (simulation.threshold(0.75) - simulation.threshold(0.25)) / 2
-    found = coverage(simulation.protocol, SHARP, 20, 0, senses["compares"])["jnd"]
-    assert found.covered >= 0.75 and abs(found.bias) < 0.15 and found.without == 0
-
-
-@pytest.mark.statistics
 def test_a_bias_towards_an_interval_is_told(senses: dict[str, Senses]) -> None:
     """The first interval is chosen in most of the trials whose intervals are equal."""
     biased = Simulation(senses["compares"].protocol, replace(SHARP, bias=0.02), senses["compares"])
@@ -259,16 +230,20 @@ def test_dprime_and_criterion(senses: dict[str, Senses], name: str, dprime: floa
         assert person(senses[name].protocol, "", [below, clear]).catch_counted == 1
 
 
-def test_dprime_has_no_bias_though_every_second_session_has_no_false_alarm(senses: dict[str, Senses]) -> None:
-    """Of 40 and 40 trials: 86 % of yes, 2 % of false alarms. All answers that are likely, each with its probability."""
-    true, mean, held = ndtri(0.86) - ndtri(0.02), 0.0, 0.0
-    for hits, alarms in product(range(26, 41), range(7)):
+def test_dprime_has_no_bias_though_many_sessions_have_no_false_alarm(senses: dict[str, Senses]) -> None:
+    """Of 40 and 40 trials: 86 % of yes, 1 to 5 % of false alarms. All likely answers, each with its probability."""
+    given: dict[tuple[int, int], Estimate] = {}
+    for hits, alarms in product(range(26, 41), range(8)):
         cells: Cells = {("trial", 0, "yes"): (hits, 40), ("catch", 0, "yes"): (alarms, 40)}
-        (found,) = person(senses["yes"].protocol, "", answered(cells)).detection
-        chance = binom.pmf(hits, 40, 0.86) * binom.pmf(alarms, 40, 0.02)
-        mean += chance * found.dprime.value
-        held += chance * (found.dprime.low <= true <= found.dprime.high)
-    assert mean == pytest.approx(true, rel=0.02) and 0.93 < held < 0.98
+        given[hits, alarms] = person(senses["yes"].protocol, "", answered(cells)).detection[0].dprime
+    for alarm in (0.01, 0.02, 0.05):
+        true, mean, held = ndtri(0.86) - ndtri(alarm), 0.0, 0.0
+        for (hits, alarms), one in given.items():
+            chance = binom.pmf(hits, 40, 0.86) * binom.pmf(alarms, 40, alarm)
+            mean += chance * one.value
+            held += chance * (one.low <= true <= one.high)
+        assert 0.94 < held < 0.966
+        assert alarm == 0.01 or mean == pytest.approx(true, rel=0.02)  # with 1 % less than half a one is to expect
 
 
 def test_answers_that_change_at_once_give_a_jnd_no_lower_bound(senses: dict[str, Senses]) -> None:

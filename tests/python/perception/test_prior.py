@@ -1,0 +1,56 @@
+"""How often the intervals hold if people scatter as the fit expects: those of test_analysis.py are usual ones."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from protocols import RIGHT, line, with_levels, written
+from punctura.perception import load_protocol
+from punctura.perception.analysis import person
+from punctura.perception.course import Course
+from punctura.perception.power import with_trials
+from punctura.perception.psychometric import QUARTER, Shape, posterior
+from scipy.special import ndtr, ndtri
+
+WIDE_FINE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 25))
+SESSIONS, SEED = 400, 111_000_000
+
+
+@pytest.mark.statistics
+def test_over_its_prior_95_percent_of_the_intervals_hold_the_threshold(tmp_path: Path) -> None:
+    """Of right answers by staircase: thresholds, exponents of d', lapses and biases that scatter as the fit expects."""
+    loaded, random, found = load_protocol(written(tmp_path, WIDE_FINE)), np.random.default_rng(SEED), []
+    protocol = with_trials(replace(loaded, file=loaded.file.model_copy(update={"method": "staircase"})), 240)
+    for i in range(SESSIONS):
+        place, exponent = np.exp([random.uniform(np.log(0.03), np.log(0.15)), 0.5 * random.standard_normal()])
+        lapse, bias, course, given = random.beta(1, 50), 0.7 * random.standard_normal(), Course(protocol, i), []
+        while (trial := course.next()) is not None:
+            z = ndtri(0.75) * ((trial.shown.level - 0.41) / place) ** exponent + (1 - 2 * trial.position) * bias
+            right = random.random() < lapse / 2 + (1 - lapse) * ndtr(z)
+            answer = ("first", "second")[trial.position ^ (not right)]
+            given.append(line(trial.shown.level, trial.position, answer))
+            course.add(trial, answer)
+        if one := person(protocol, "", given).threshold:
+            found.append((one.low < place < one.high, abs(np.log(exponent))))
+    held, away = np.array(found).T
+    print(f"over the prior {held.mean():.1%}, near 1 {held[away < 0.3].mean():.1%}, far {held[away > 0.8].mean():.1%}")
+    assert 0.92 < held.mean() < 0.98
+
+
+@pytest.mark.statistics
+def test_over_its_prior_95_percent_of_the_intervals_hold_the_jnd() -> None:
+    """Of two sides by constant stimuli: noises, thresholds, lapses and biases that scatter as the fit expects."""
+    levels, random, found = np.array([0.2, 0.3, 0.36, 0.46, 0.52, 0.62]), np.random.default_rng(3), []
+    x, side = np.repeat(levels, 40), np.tile(np.repeat([1, -1], 20), 6)
+    for _ in range(SESSIONS):
+        noise, place = random.uniform(0.05, 0.14), random.uniform(0.36, 0.46)
+        lapse, bias = random.beta(1, 50), 0.7 * random.standard_normal()
+        hits = random.random(len(x)) < lapse / 2 + (1 - lapse) * ndtr((x - place) / noise + side * bias)
+        middle, low, high = posterior(Shape(bends=True, rest="bias"), levels, x, hits, side).jnd((0.5, 0.025, 0.975))
+        true = QUARTER * noise
+        found.append((low < true < high, np.log(middle / true), np.log(high / low) / 3.92, lapse > 0.04))
+    held, error, width, lapses = np.array(found).T
+    print(f"JND over the prior {held.mean():.1%}, many lapses {held[lapses == 1].mean():.1%}: "
+          f"interval {width.mean():.3f}, scatter {error.std():.3f}")  # fmt: skip
+    assert 0.92 < held.mean() < 0.98
