@@ -7,7 +7,8 @@ import numpy as np
 from punctura.identify.air_noise import AirNoise
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.model import Model
-from punctura.identify.noise import effective_samples
+from punctura.identify.noise import NoiseOfFit, effective_samples
+from punctura.identify.slow_noise import with_slow_noise
 from punctura.trace import Segments, Trace, TraceError
 from punctura.trace.information import Information, held_out, information
 from punctura.trace.turns import noise_of
@@ -68,6 +69,7 @@ class Rule:
         self._noise = noise_of(trace.force)
         self._errors: dict[Candidate, float | None] = {}
         self._late: dict[Candidate, bool] = {}
+        self._likely: dict[Candidate, Fit] = {}
 
     def prefers(self, new: Candidate, old: Candidate) -> bool:
         """Whether `new` is the better model.
@@ -94,7 +96,10 @@ class Rule:
             shown = larger.fit.weighted_rmse < NOISY * self._noise and self._is_late(larger)
             needed = STRONG if shown else np.inf
         if larger is old:
-            return gain >= -needed if len(new.fit.u) < len(old.fit.u) else gain > 0
+            if len(new.fit.u) == len(old.fit.u):
+                return gain > 0
+            fewer = len(new.fit.parameters.membranes) < len(old.fit.parameters.membranes)
+            return gain >= -needed or (fewer and self._may_be_slow_noise(old, new))
         if gain <= needed or self._may_be_slow_noise(new, old):
             return False
         return self._predicts(new, old)
@@ -109,16 +114,32 @@ class Rule:
 
         It may be unless BIC prefers `new` also where slow noise may explain what each model leaves: such as air of
         enough samples does not exclude. If `old` leaves such noise, the evidence must be STRONG: a wall that never pops
-        is like a slow change. A relaxation looks like a drift, so there it is as much as the air allows.
+        is like a slow change, and walls must be worth it where both fits follow that noise, too. A relaxation looks
+        like a drift, so there it is as much as the air allows.
         """
         added = set(new.model.names) - set(old.model.names)
         relaxing = any(name.startswith(RELAXATION) for name in added)
         more = len(new.fit.u) - len(old.fit.u)  # it may also have some less, or others shared by all walls
         noise = self.air.allows if relaxing else self.air.tested
-        left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
         left = old.fit.noise.most_likely()
-        needed = STRONG if left[0].share > 0 and self.air.tested(*left) else EVIDENCE
-        return left_old - left_new - more * float(np.log(len(new.fit.residuals))) <= needed
+        slow = left[0].share > 0 and self.air.tested(*left)
+        needed = (STRONG if slow else EVIDENCE) + more * float(np.log(len(new.fit.residuals)))
+        left_old, left_new = (one.fit.noise.misfit_beyond_slow_noise(noise) for one in (old, new))
+        walls = len(new.fit.parameters.membranes) > len(old.fit.parameters.membranes)
+        if left_old - left_new > needed and slow and walls:
+            left_old = min(left_old, self._beside_slow_noise(old).misfit_beyond_slow_noise(noise))
+            if left_old - left_new <= needed:
+                left_new = min(left_new, self._beside_slow_noise(new).misfit_beyond_slow_noise(noise))
+        return left_old - left_new <= needed
+
+    def _beside_slow_noise(self, one: Candidate) -> NoiseOfFit:
+        """What the likely fit beside slow noise leaves.
+
+        Least squares move a pop by some samples where slow noise fits better then, and slow noise takes no such step.
+        """
+        if one not in self._likely:
+            self._likely[one] = with_slow_noise(one.fit, self.air).measured
+        return self._likely[one].noise
 
     def _is_late(self, one: Candidate) -> bool:
         """Whether a lag is worth it beside one of almost 0, whose fine steps alone follow a pop better."""

@@ -66,6 +66,7 @@ LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
 PERIODS, FINE = 3, 4  # of a sine in the trace, at least; rates for each period more
 ONE_SINE = 0.6  # of the squares beside white noise: a random walk has up to 0.4 in one sine
+TOLD = 3.0  # standard deviations of slow noise: a wall that adds less is like one of its swings
 DRIFTING = 1.5  # times the other noise: with more slow noise, intervals of least squares are too narrow
 
 
@@ -126,7 +127,8 @@ def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Itera
     steps = any(finding.kind == "air_steps" for finding in fit.misfit.trace.findings)  # so it may be no drift
     if air.allows(*fit.noise.most_likely()) and not steps:
         yield (
-            f"The measured force drifts slowly about the model, by {slow:.2g} N. "
+            f"The measured force drifts slowly about the model, by {slow:.2g} N. A wall that adds less than "
+            f"{TOLD * slow:.2g} N, {TOLD:g} times as much, cannot be told from that. "
             + (
                 "The fit takes it into account, but the interval of a surface is too narrow. "
                 if whitened

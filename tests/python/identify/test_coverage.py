@@ -29,6 +29,7 @@ SOME = 4  # traces, in every run of the tests
         (Conditions(machine=True, depth_step=10e-6, force_step=20e-3), 0.93),
         (Conditions(machine=True, noise=3e-3, force_step=20e-3), 0.9),
         (Conditions(machine=True, inward=True, auto=True), 0.93),
+        (Conditions(machine=True, slide=0.08, presliding=20e-6), 0.93), (Conditions(machine=True, cable=15.0), 0.93),
         (Conditions(machine=True, walls=2, apart=0.5), 0.93), (Conditions(machine=True, walls=2, apart=1.3), 0.93),
     ],
 )  # fmt: skip
@@ -45,6 +46,15 @@ def test_a_needle_that_is_stated_wrongly_is_named():
     given = Conditions(machine=True, auto=True, wrong=0.22)
     warned = [row.held for seed in range(1, TRACES + 1) for row in tried(seed, given) if row.kind == "warned"]
     assert sum(warned) >= 0.8 * TRACES
+
+
+@pytest.mark.statistics
+@pytest.mark.parametrize("slow", [{"drift": 0.1}, {"walk": 0.1}])
+def test_a_trace_with_a_wall_that_is_slow_noise_is_seldom_called_explained(slow):
+    given = Conditions(machine=True, auto=True, rate=50, **slow)
+    said = [{row.kind: row.held for row in tried(seed, given)} for seed in range(1, TRACES + 1)]
+    wrong = sum(one["explained"] and not one["walls"] for one in said)
+    assert wrong <= binom.ppf(1 - CHANCE, TRACES, 0.05)
 
 
 @pytest.mark.statistics

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from punctura.identify import identify
 from punctura.identify.criteria import Rule, candidate
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.model import Model, extensions
@@ -58,6 +59,17 @@ def test_a_relaxation_of_the_tissue_is_still_preferred():
     rule = Rule(made, segment(made))
     assert rule.prefers(two, one)
     assert not any("drifts slowly" in text for text in verdicts((), made, segment(made), two.fit, rule.air))
+
+
+@pytest.mark.parametrize("seed", [132004, 132010])  # they had two walls
+def test_a_wall_is_not_added_for_slow_noise(seed):
+    given = TOOL["Conditions"](machine=True, auto=True, rate=50, drift=0.1)
+    trace, needle, _ = TOOL["random_trace"](seed, given)
+    found = identify(trace, needle)
+    assert len(found.parameters.membranes) == 1
+    assert any(
+        "A wall that adds less than 0." in text and "cannot be told from that" in text for text in found.verdicts
+    )
 
 
 @pytest.mark.parametrize(("slow", "white"), [(0.0, 1.0), (3.0, 1.0)])
