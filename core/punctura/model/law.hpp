@@ -15,10 +15,13 @@ namespace punctura {
 /// 0 in front of the first break and constant behind the last finite break. The first break is at the surface (depth 0)
 /// or deeper.
 ///
-/// A law with memory may have pieces(cos_beta, memory) alone: Memory{} is an untouched membrane.
+/// pieces(cos_beta) alone is enough: pieces() is for a line along the normal. A law with memory may have
+/// pieces(cos_beta, memory) alone: Memory{} is an untouched membrane.
 template <typename L>
 concept Law = requires(const L law, typename L::Scalar q) {
   { law.pieces().band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
+} || requires(const L law, typename L::Scalar q) {
+  { law.pieces(q).band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
 } || requires(const L law, typename L::Scalar q, const typename L::Memory& memory) {
   { law.pieces(q, memory).band(q) } noexcept -> std::same_as<Band<typename L::Scalar>>;
 };
@@ -34,6 +37,12 @@ template <Law L>
 struct GivenPieces<L> {
   using Type = decltype(std::declval<const L&>().pieces());
 };
+template <Law L>
+  requires(
+      !requires(const L& law) { law.pieces(); } && requires(const L& law) { law.pieces(typename L::Scalar(1)); })
+struct GivenPieces<L> {
+  using Type = decltype(std::declval<const L&>().pieces(typename L::Scalar(1)));
+};
 }  // namespace detail
 template <Law L>
 using PiecesOf = std::remove_cvref_t<typename detail::GivenPieces<L>::Type>;
@@ -44,7 +53,8 @@ template <typename L>
 inline constexpr bool is_proven = false;
 
 /// Whether a law may go on from the state of the proxy that another law had inside the wall. Proven laws go on from
-/// each other. An own law goes on from its own kind only: nobody knows what it does with the state of another one.
+/// each other. An own law goes on from its own kind only: nobody knows what it does with the state of another one. A
+/// law that is several kinds in one class says so itself: bool is_kind_of(const Law& before) const noexcept.
 template <typename L, typename Before>
 constexpr bool goes_on_from(const L& law, const Before& before) noexcept {
   if constexpr (is_proven<L> && is_proven<Before>)
@@ -64,7 +74,7 @@ constexpr decltype(auto) untouched_pieces(const L& law, Angle... cos_beta) noexc
   if constexpr (requires { law.pieces(cos_beta...); })
     return law.pieces(cos_beta...);
   else if constexpr (sizeof...(Angle) == 0)
-    return law.pieces(typename L::Scalar(1), typename L::Memory{});
+    return untouched_pieces(law, typename L::Scalar(1));
   else
     return law.pieces(cos_beta..., typename L::Memory{});
 }
@@ -198,12 +208,14 @@ constexpr bool check_memory() noexcept {
 
 /// Stops the compiler at a class that is no law for a scene, with the likely causes. Otherwise true.
 template <typename L>
-constexpr bool check_law() noexcept {
-  static_assert(ObliqueLaw<L>,
-                "the class is no law for a scene. It needs, in public: using Scalar = double (or float); and "
-                "pieces(Scalar cos_beta) const noexcept or pieces(Scalar cos_beta, const Memory&) const noexcept, with "
-                "a PiecewiseBand or ManyPieces of Scalar as result. Look for a missing const, noexcept or argument "
-                "cos_beta. See Law in punctura/model/law.hpp and docs/core.md");
+constexpr bool check_is_law() noexcept {
+  static_assert(
+      ObliqueLaw<L>,
+      "the class is no law for a scene. It needs, in public: using Scalar = double (or float); and "
+      "pieces(Scalar cos_beta) const noexcept or pieces(Scalar cos_beta, const Memory&) const noexcept, with "
+      "a PiecewiseBand or ManyPieces of Scalar as result. Look for a missing const, noexcept or argument "
+      "cos_beta, and for a law_of that returns a pointer or an optional. See Law in punctura/model/law.hpp and "
+      "docs/core.md");
   return true;
 }
 

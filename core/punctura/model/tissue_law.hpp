@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,8 @@ class BasicTissueLaw {
     if (set_ > 0 && memory.made > all.breaks[0]) open(memory.made, all);
     if (C_ > 0) add_cutting(cos_beta, all);
     all.set_fronts(memory.cut);
+    // check() refuses such a set. Laws of law_of have not passed it, and this one would pull the needle in.
+    if (!(set_ >= 0 && set_ <= 1)) all.pieces[1].lower.c0 = std::numeric_limits<Scalar>::quiet_NaN();
     return all;
   }
   constexpr Pieces pieces(const Memory& memory) const noexcept { return pieces(cos_beta_, memory); }

@@ -153,11 +153,16 @@ class MixedLaw {
   }
 
   /// For goes_on_from().
-  constexpr bool is_kind_of(const MixedLaw& other) const noexcept {
-    return law_.index() == other.law_.index() || (uses_proven() && other.uses_proven());
+  constexpr bool is_kind_of(const MixedLaw& before) const noexcept {
+    bool goes_on = false;
+    visit([&]<std::size_t>(const auto& law) {
+      before.visit([&]<std::size_t>(const auto& other) { goes_on = goes_on_from(law, other); });
+    });
+    return goes_on;
   }
 
   void describe(auto& parameters) const {
+    parameters.index(law_.index(), 0);
     visit([&]<std::size_t>(const auto& law) {
       if constexpr (requires { law.describe(parameters); }) law.describe(parameters);
     });
@@ -175,11 +180,6 @@ class MixedLaw {
   template <std::size_t i>
   using Each = std::tuple_element_t<i, std::tuple<Laws...>>;
 
-  constexpr bool uses_proven() const noexcept {
-    bool proven = false;
-    visit([&]<std::size_t i>(const auto&) { proven = is_proven<Each<i>>; });
-    return proven;
-  }
   constexpr bool advance_any(Memory& memory, Scalar depth, Scalar dt) const noexcept {
     bool changed = false;
     visit([&]<std::size_t i>(const auto& law) {
@@ -203,7 +203,7 @@ class MixedLaw {
         using Own = std::variant_alternative_t<i, typename Memory::Each>;
         all = Pieces(std::in_place_index<i>, pieces_for(law, own ? *own : Own{}, cos_beta...));
       } else {
-        all = Pieces(std::in_place_index<i>, law.pieces(cos_beta...));
+        all = Pieces(std::in_place_index<i>, untouched_pieces(law, cos_beta...));
       }
     });
     return all;

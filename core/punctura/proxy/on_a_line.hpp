@@ -72,7 +72,7 @@ constexpr decltype(auto) pieces_now(const LineParams<L, C>& params, LineState<L,
     if (!state.started) lay_out(params, state);
     return std::as_const(state.pieces);
   } else {
-    return params.law.pieces();
+    return untouched_pieces(params.law);
   }
 }
 

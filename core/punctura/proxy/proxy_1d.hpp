@@ -80,7 +80,7 @@ class Proxy1d {
     if constexpr (LawWithMemory<L>)
       return solver_ == Solver::paper ? band_ : state_.pieces.band(depth());
     else
-      return params_.law.pieces().band(depth());
+      return untouched_pieces(params_.law).band(depth());
   }
 
   Params params_;

@@ -56,7 +56,10 @@ void check_model(std::optional<Model>& model, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
     for (std::size_t i = 0; model && i < model->size(); ++i) {
       const auto& proxy = model->proxies()[i].params();
-      check_law(untouched_pieces(proxy.law, 1), "membrane[" + std::to_string(i) + "]", problems);
+      const std::string wall = "membrane[" + std::to_string(i) + "]";
+      check_law(untouched_pieces(proxy.law, 1), wall, problems);
+      if (!is_unit(proxy.n))
+        problems.push_back({wall + ".inward_normal", static_cast<double>(proxy.n.norm()), "must have the length 1"});
       if (const auto g = static_cast<double>(proxy.coupling.g); i == 0 && !(g > 0 && std::isfinite(g)))
         problems.push_back({"coupling.g", g, "must be a number greater than 0 N/m: a weaker spring pulls the needle"});
     }

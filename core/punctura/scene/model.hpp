@@ -26,7 +26,7 @@ namespace detail {
 template <typename Scalar, typename C, typename LawOf>
 auto insertion_of(const Scene& scene, const C& coupling, LawOf&& law_of) {
   using L = std::remove_cvref_t<decltype(law_of(BasicNeedle<Scalar>{}, BasicMembrane<Scalar>{}, std::size_t{}))>;
-  static_assert(check_law<L>());
+  static_assert(check_is_law<L>());
   const auto to = [](double x) { return static_cast<Scalar>(x); };
   const BasicNeedle<Scalar> needle{to(scene.needle.diameter), to(scene.needle.tip_angle)};
   std::vector<SiteOf<L>> sites;

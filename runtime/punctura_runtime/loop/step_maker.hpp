@@ -16,9 +16,8 @@ namespace punctura {
 
 /// Gives the model of a scene, or an empty optional and the scene's problems.
 template <typename ModelOf>
-concept GivesModel = requires(const ModelOf make, const Scene& scene, std::vector<Problem>& problems) {
-  { make(scene, problems)->outside() } -> std::same_as<bool>;
-};
+concept GivesModel =
+    requires(const ModelOf make, const Scene& scene, std::vector<Problem>& problems) { *make(scene, problems); };
 
 /// Makes the whole tick of a scene with a model of any kind. A loop and a replay have one.
 ///

@@ -178,3 +178,33 @@ TEST_CASE("a law of another kind that comes while the tip is inside gives no for
   CHECK(phase_after(wall, firm) != Phase::barred);
   CHECK(phase_after(wall, tissue) != Phase::barred);  // both are laws of the package
 }
+
+TEST_CASE("a law inside two MixedLaws is told from another one") {
+  using Inner = MixedLaw<CutLaw, HalfLaw>;
+  using Outer = MixedLaw<ThickLaw, Inner>;
+  const ThickLaw wall(paper_needle, paper_membrane(1e-3));
+  const Outer cut(Inner(CutLaw{})), half(Inner(HalfLaw{wall}));
+  CHECK(goes_on_from(cut, cut));
+  CHECK(goes_on_from(half, half));
+  CHECK(!goes_on_from(cut, half));
+  CHECK(!goes_on_from(cut, Outer(wall)));
+}
+
+TEST_CASE("a kept state of another kind of law is refused, also if both have the same pieces") {
+  const ThickLaw wall(paper_needle, paper_membrane(1e-3));
+  const auto of = [](const FourLaws& law) { return Proxy3d(law, {}, {0, -1, 0}, Coupling{400, 1}, T); };
+  auto plain = of(wall), half = of(HalfLaw{wall});
+  CHECK(load_state(half, save_state(half)));
+  CHECK(!load_state(half, save_state(plain)));
+}
+
+TEST_CASE("measured tissue that gives back more than its grip is no law") {
+  Tissue tissue;
+  for (const double set : {-0.1, 1.01, 50.0}) {
+    tissue.set = set;
+    std::vector<Problem> problems;
+    CHECK(!try_build<double>(paper_scene(1e-3), problems,
+                             [&](const Needle& n, const Membrane& m, std::size_t) { return TissueLaw(n, m, tissue); }));
+    CHECK(problems.size() == 1);
+  }
+}
