@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 2> words_of<Direction>{"stylus", "
 /// Calls resume(now[i], before[j]) for each pair of elements at the same place (`same_place`). If several elements
 /// share a place, they are paired in their order. An element at a new place has no pair. It allocates no memory.
 template <typename Now, typename Before, typename Resume>
-void match_by_place(Now& now, const Before& before, Resume&& resume) noexcept {
+constexpr void match_by_place(Now& now, const Before& before, Resume&& resume) noexcept {
   for (auto one = now.begin(); one != now.end(); ++one) {
     const auto here = [&](const auto& other) { return one->same_place(other); };
     auto skip = std::count_if(now.begin(), one, here);
@@ -58,7 +58,7 @@ class ConditionedProxies {
   using StoredIn = Storage;
 
   /// Clears all state. A proxy that starts inside a membrane stays barred until it has been outside, in front.
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     conditioner_.reset();
     if (from_motion_) from_motion_->reset();
     each(proxies_, [](auto& proxy) { proxy.reset(); });
@@ -73,7 +73,7 @@ class ConditionedProxies {
   /// membranes are at one place, the first takes over from the first, the second from the second. A membrane at a new
   /// place starts without history.
   template <typename Others>
-  void resume(ConditionedProxies<Scalar, Others, Storage>& previous) noexcept {
+  constexpr void resume(ConditionedProxies<Scalar, Others, Storage>& previous) noexcept {
     conditioner_.resume(previous.conditioner_);
     if (from_motion_ && previous.from_motion_) std::swap(*from_motion_, *previous.from_motion_);
     tip_ = previous.tip_;
@@ -88,7 +88,7 @@ class ConditionedProxies {
   ///
   /// It returns NaN, and the state does not change, if position is NaN or beyond 1000 km. The same holds if axis is
   /// used and not finite.
-  Vector step(const Vector& position, const Vector& axis) noexcept {
+  constexpr Vector step(const Vector& position, const Vector& axis) noexcept {
     return visit(proxies_, [&](auto& proxies) { return step(proxies, position, axis); });
   }
 
@@ -106,24 +106,24 @@ class ConditionedProxies {
     each(proxies_, [&](const auto& proxy) { proxy.describe(parameters); });
   }
 
-  const Vector& tip() const noexcept { return tip_; }        ///< the conditioned position, m
-  const Vector& force() const noexcept { return force_; }    ///< the sum of all membranes, N
-  bool uses_axis() const noexcept { return !from_motion_; }  ///< whether step() reads the axis
-  const Proxies& proxies() const noexcept { return proxies_; }
-  std::size_t size() const noexcept {  ///< the number of membranes
+  constexpr const Vector& tip() const noexcept { return tip_; }        ///< the conditioned position, m
+  constexpr const Vector& force() const noexcept { return force_; }    ///< the sum of all membranes, N
+  constexpr bool uses_axis() const noexcept { return !from_motion_; }  ///< whether step() reads the axis
+  constexpr const Proxies& proxies() const noexcept { return proxies_; }
+  constexpr std::size_t size() const noexcept {  ///< the number of membranes
     return visit(proxies_, [](const auto& proxies) { return proxies.size(); });
   }
   /// The result of the last tick at membrane i.
-  SpaceTick<Scalar> tick(std::size_t i) const noexcept {
+  constexpr SpaceTick<Scalar> tick(std::size_t i) const noexcept {
     return visit(proxies_, [i](const auto& proxies) { return proxies[i].tick(); });
   }
   /// n.b of the needle in membrane i, constant while the needle is inside.
-  Scalar cos_beta(std::size_t i) const noexcept {
+  constexpr Scalar cos_beta(std::size_t i) const noexcept {
     return visit(proxies_, [i](const auto& proxies) { return proxies[i].state().cos_beta; });
   }
 
   /// Whether the tip is in front of every membrane. Forces may be switched on only in this state.
-  bool outside() const noexcept {
+  constexpr bool outside() const noexcept {
     bool all = true;
     each(proxies_, [&](const auto& proxy) { all = all && proxy.phase() == Phase::outside; });
     return all;
@@ -131,7 +131,7 @@ class ConditionedProxies {
 
   /// Calls visitor(proxies) with the vector in use, and returns its result. Of two kinds, one comparison finds it.
   template <typename Visitor>
-  static decltype(auto) visit(auto& proxies, Visitor&& visitor) {
+  static constexpr decltype(auto) visit(auto& proxies, Visitor&& visitor) {
     if constexpr (requires { proxies.size(); })
       return visitor(proxies);
     else if (auto* first = std::get_if<0>(&proxies))
@@ -142,14 +142,14 @@ class ConditionedProxies {
 
  protected:
   /// The arguments of InsertionOf.
-  ConditionedProxies(Scalar period, Scalar low_pass_hz, Direction direction, Conditioning conditioning,
-                     Scalar encoder_step, std::uint32_t sub_steps)
+  constexpr ConditionedProxies(Scalar period, Scalar low_pass_hz, Direction direction, Conditioning conditioning,
+                               Scalar encoder_step, std::uint32_t sub_steps)
       : conditioner_(conditioning, low_pass_hz, encoder_step, period), sub_steps_(sub_steps) {
     if (direction == Direction::motion) from_motion_.emplace(period);
   }
   /// Goes on from an insertion with one of these kinds of proxies.
   template <typename One>
-  explicit ConditionedProxies(ConditionedProxies<Scalar, One, Storage>&& one)
+  constexpr explicit ConditionedProxies(ConditionedProxies<Scalar, One, Storage>&& one)
       : proxies_(std::move(one.proxies_)),
         conditioner_(std::move(one.conditioner_)),
         from_motion_(std::move(one.from_motion_)),
@@ -162,7 +162,7 @@ class ConditionedProxies {
  private:
   template <typename, typename, typename>
   friend class ConditionedProxies;
-  static void each(auto& proxies, auto&& act) {
+  static constexpr void each(auto& proxies, auto&& act) {
     visit(proxies, [&](auto& all) {
       for (auto& proxy : all) act(proxy);
     });
@@ -171,7 +171,7 @@ class ConditionedProxies {
   using Tracker = EntryDirection<Scalar, Storage>;
 
   /// The kind of the proxies is chosen once, in front of the tick.
-  Vector step(auto& proxies, const Vector& position, const Vector& axis) noexcept {
+  constexpr Vector step(auto& proxies, const Vector& position, const Vector& axis) noexcept {
     const Vector no_number = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     if (!is_place(position) || (uses_axis() && !axis.allFinite())) return no_number;
     const bool first = !conditioner_.started();
@@ -186,7 +186,7 @@ class ConditionedProxies {
     return force_ = force;
   }
   /// The sub-steps of a tick without the last one, from the last tip to this one (m).
-  void step_between(auto& proxies, const Vector& tip, const Vector& direction) noexcept {
+  constexpr void step_between(auto& proxies, const Vector& tip, const Vector& direction) noexcept {
     for (std::uint32_t i = 1; i < sub_steps_; ++i) {
       const Vector between = tip_ + (static_cast<Scalar>(i) / static_cast<Scalar>(sub_steps_)) * (tip - tip_);
       for (auto& proxy : proxies) proxy.step_finite(between, direction);

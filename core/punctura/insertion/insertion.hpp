@@ -34,9 +34,10 @@ class InsertionOf
   /// coupling: sampled with the period of a sub-step, period / sub_steps. period: T, s. low_pass_hz: for
   /// Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m. sub_steps: how many steps the
   /// proxies make in a tick, 1 or more; the position between two ticks is interpolated on a straight line.
-  InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period, Solver solver = Solver::exact,
-              Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
-              Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0, std::uint32_t sub_steps = 1)
+  constexpr InsertionOf(std::span<const SiteOf<L>> sites, const C& coupling, Scalar period,
+                        Solver solver = Solver::exact, Scalar low_pass_hz = 0, Direction direction = Direction::stylus,
+                        Conditioning conditioning = Conditioning::low_pass, Scalar encoder_step = 0,
+                        std::uint32_t sub_steps = 1)
       : InsertionOf::ConditionedProxies(period, low_pass_hz, direction, conditioning, encoder_step, sub_steps) {
     this->proxies_.reserve(sites.size());
     for (const auto& site : sites)
@@ -44,8 +45,8 @@ class InsertionOf
     this->reset();
   }
 
-  InsertionOf(std::span<const SiteOf<L>> sites, const BasicCoupling<Scalar>& coupling, Scalar period,
-              Solver solver = Solver::exact)
+  constexpr InsertionOf(std::span<const SiteOf<L>> sites, const BasicCoupling<Scalar>& coupling, Scalar period,
+                        Solver solver = Solver::exact)
       : InsertionOf(sites, C(coupling, period), period, solver) {}
 };
 

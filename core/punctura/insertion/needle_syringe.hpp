@@ -28,7 +28,7 @@ class NeedleSyringe {
   BasicPlunger<Scalar> plunger;
 
   /// opening: X, length of the needle's slanted face, m. layers: from the front to the back.
-  NeedleSyringe(const BasicPlunger<Scalar>& of, Scalar opening, std::span<const LayerOutlets<Scalar>> layers)
+  constexpr NeedleSyringe(const BasicPlunger<Scalar>& of, Scalar opening, std::span<const LayerOutlets<Scalar>> layers)
       : plunger(of), opening_(opening) {
     layers_.reserve(layers.size());
     for (const auto& layer : layers) layers_.emplace_back(layer);
@@ -36,7 +36,7 @@ class NeedleSyringe {
 
   /// One tick, after the insertion's. thumb: depth of the thumb, m. Returns the force on the thumb, N.
   template <typename Insertion>
-  Scalar step(Scalar thumb, const Insertion& insertion) noexcept {
+  constexpr Scalar step(Scalar thumb, const Insertion& insertion) noexcept {
     Opening<Scalar> opening(opening_);
     for (const auto& layer : layers_) {
       if (layer.membrane >= insertion.size()) std::abort();

@@ -21,8 +21,8 @@ class FixedVector {
 
  public:
   FixedVector() = default;
-  explicit FixedVector(std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) emplace_back();
+  FixedVector(std::size_t n, const T& value) {
+    for (std::size_t i = 0; i < n; ++i) emplace_back(value);
   }
   void reserve(std::size_t n) const noexcept {
     if (n > N) std::abort();

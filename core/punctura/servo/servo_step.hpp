@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdlib>
@@ -59,19 +58,19 @@ class ServoGuard {
   using Syringe = NeedleSyringe<Scalar, Storage>;
 
   /// Puts a syringe on the needle. Before the first tick.
-  void set_syringe(const Syringe& syringe) { syringe_ = syringe; }
+  constexpr void set_syringe(const Syringe& syringe) { syringe_ = syringe; }
 
   /// Requests force. The force starts when the tip is in front of every membrane, with a ramp of
   /// ForceLimits::ramp_time.
   ///
   /// It does not clear a latched fault: only reset() does.
-  void arm() noexcept {
+  constexpr void arm() noexcept {
     commands_ |= command_arm;
     if (state_ == ServoState::disarmed) state_ = ServoState::waiting;
   }
 
   /// Ends the force immediately.
-  void disarm() noexcept {
+  constexpr void disarm() noexcept {
     commands_ |= command_disarm;
     if (state_ != ServoState::faulted) state_ = ServoState::disarmed;
   }
@@ -80,19 +79,19 @@ class ServoGuard {
 
   /// How much the motors have given and not yet recovered from, N^2 s. See ForceBudget. The next run must continue
   /// with it.
-  Scalar spent() const noexcept { return limiter_.budget().spent(); }
-  void set_spent(Scalar spent) noexcept {
+  constexpr Scalar spent() const noexcept { return limiter_.budget().spent(); }
+  constexpr void set_spent(Scalar spent) noexcept {
     limiter_.set_spent(spent);
     time_ = std::numeric_limits<double>::quiet_NaN();  // the time since the last run does not count as rest
   }
   /// Ends a run. The device has held the last force for `elapsed` (s) and now gives no force.
-  void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
+  constexpr void end(Scalar elapsed) noexcept { limiter_.end(elapsed); }
 
   /// Takes over the run of another step of the same period, but not its model: limits, budget, state, fault and number
   /// of the tick go on, and the force is faded. The model begins afresh: it gives no force until the tip has been in
   /// front of every membrane. A syringe goes on if it has the same contents, barrel and coupling; another one starts
   /// full, where the thumb is.
-  void resume(const ServoGuard& previous) noexcept {
+  constexpr void resume(const ServoGuard& previous) noexcept {
     if (syringe_ && previous.syringe_ && syringe_->plunger.same_syringe(previous.syringe_->plunger))
       syringe_->plunger.state = previous.syringe_->plunger.state;
     gate_.state = previous.gate_.state;
@@ -111,18 +110,18 @@ class ServoGuard {
 
   /// The force for the device under the thumb, before its own limits, N; negative while the thumb pushes. 0 unless the
   /// step is active.
-  Scalar thumb_force() const noexcept { return thumb_force_; }
-  const Snapshot& snapshot() const noexcept { return snapshot_; }
-  Scalar force_scale() const noexcept { return force_scale_; }
-  const std::optional<Syringe>& syringe() const noexcept { return syringe_; }
-  ServoState state() const noexcept { return state_; }
-  Fault fault() const noexcept { return fault_; }
+  constexpr Scalar thumb_force() const noexcept { return thumb_force_; }
+  constexpr const Snapshot& snapshot() const noexcept { return snapshot_; }
+  constexpr Scalar force_scale() const noexcept { return force_scale_; }
+  constexpr const std::optional<Syringe>& syringe() const noexcept { return syringe_; }
+  constexpr ServoState state() const noexcept { return state_; }
+  constexpr Fault fault() const noexcept { return fault_; }
 
  protected:
   /// model: the insertion behind this guard. The other arguments are those of ServoStepOf.
   template <typename Insertion>
-  ServoGuard(const Insertion& model, Scalar period, const GateLimits& gate, const ForceLimits& limits,
-             Scalar force_scale)
+  constexpr ServoGuard(const Insertion& model, Scalar period, const GateLimits& gate, const ForceLimits& limits,
+                       Scalar force_scale)
       : gate_(gate, period, model.uses_axis()),
         limiter_(limits, period),
         force_scale_(force_scale),
@@ -131,7 +130,7 @@ class ServoGuard {
     snapshot_.membrane_count = static_cast<std::uint32_t>(model.size());
   }
 
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     commands_ = (commands_ & command_scene) | command_reset;
     fade_ = 0;
     barred_ = false;
@@ -143,7 +142,7 @@ class ServoGuard {
 
   /// One tick with the force of this model.
   template <typename Insertion>
-  const Snapshot& step(Insertion& model, const DeviceSample& sample) noexcept {
+  constexpr const Snapshot& step(Insertion& model, const DeviceSample& sample) noexcept {
     if (fault_ == Fault::none) fault_ = gate_.step(sample);
 
     Vector model_force = Vector::Zero(), force = Vector::Zero();
@@ -151,7 +150,7 @@ class ServoGuard {
       model_force = model.step(to_vector(sample.position).template cast<Scalar>(),
                                to_vector(sample.axis).template cast<Scalar>().stableNormalized());
       if (!model_force.allFinite() || !bands_are_finite(model) ||
-          (syringe_ && !std::isfinite(syringe_->step(static_cast<Scalar>(sample.thumb), model))))
+          (syringe_ && !lane::finite(syringe_->step(static_cast<Scalar>(sample.thumb), model))))
         fault_ = Fault::non_finite_force;
     }
     if (fault_ != Fault::none) state_ = ServoState::faulted;
@@ -165,10 +164,11 @@ class ServoGuard {
       state_ = ServoState::active;
       limiter_.reset();
     }
-    // NaN or negative after a fault of the clock or at the start of a run
-    const auto elapsed = static_cast<Scalar>(sample.time - time_);
+    // NaN or negative after a fault of the clock or at the start of a run. While it compiles, Clang subtracts no NaN.
+    auto elapsed = static_cast<Scalar>(time_);
+    if (!std::is_constant_evaluated() || lane::finite(time_)) elapsed = static_cast<Scalar>(sample.time - time_);
     const auto temperature = static_cast<Scalar>(sample.motor_temperature);
-    if (std::isfinite(sample.time)) time_ = sample.time;
+    if (lane::finite(sample.time)) time_ = sample.time;
     thumb_force_ = state_ == ServoState::active ? faded_thumb() : Scalar(0);
     if (state_ == ServoState::active) {
       force = limiter_.step(faded(force_scale_ * model_force), temperature, elapsed);
@@ -214,7 +214,7 @@ class ServoGuard {
   /// and the force stays finite; the band of a law with a flaw is NaN (no_band). check() has seen the bands of a
   /// scene's own laws, in double.
   template <typename Insertion>
-  bool bands_are_finite([[maybe_unused]] const Insertion& model) const noexcept {
+  constexpr bool bands_are_finite([[maybe_unused]] const Insertion& model) const noexcept {
     if constexpr (std::is_same_v<Insertion, BasicInsertion<double>>) return true;
     Scalar sum = 0;  // NaN if a band is not finite
     for (std::uint32_t i = 0; i < snapshot_.membrane_count; ++i) {
@@ -225,18 +225,18 @@ class ServoGuard {
   }
 
   /// The plunger's force on the thumb, scaled, and faded as the needle's force. Call it before faded().
-  Scalar faded_thumb() noexcept {
+  constexpr Scalar faded_thumb() noexcept {
     const Scalar wanted = syringe_ ? force_scale_ * syringe_->plunger.force() : Scalar(0);
     if (fade_starts_) thumb_offset_ = thumb_force_ - wanted;
     return wanted + fade_ * thumb_offset_;
   }
 
-  void start_fade() noexcept {
+  constexpr void start_fade() noexcept {
     fade_ = 1;
     fade_starts_ = true;
   }
   /// Fades from the force before start_fade() to the wanted force.
-  Vector faded(const Vector& wanted) noexcept {
+  constexpr Vector faded(const Vector& wanted) noexcept {
     if (fade_starts_) fade_offset_ = faded_force_ - wanted;
     fade_starts_ = false;
     faded_force_ = wanted + fade_ * fade_offset_;
@@ -245,7 +245,7 @@ class ServoGuard {
   }
 
   /// The plunger gives no force on the thumb in a fault.
-  SyringeRecord syringe_record() const noexcept {
+  constexpr SyringeRecord syringe_record() const noexcept {
     if (!syringe_) return no_syringe;
     const auto& plunger = syringe_->plunger;
     const auto wide = [](Scalar x) { return static_cast<double>(x); };
@@ -254,8 +254,8 @@ class ServoGuard {
   }
 
   template <typename Insertion>
-  void record(const Insertion& model, const DeviceSample& sample, const Vector& model_force,
-              const Vector& force) noexcept {
+  constexpr void record(const Insertion& model, const DeviceSample& sample, const Vector& model_force,
+                        const Vector& force) noexcept {
     snapshot_.tick = tick_++;
     snapshot_.sample = sample;
     snapshot_.tip = to_array(model.tip());
@@ -301,12 +301,12 @@ class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Inser
   /// Prefer build() (scene/build.hpp): it checks the scene first. period: T, s. force_scale: how much of the model's
   /// force the device gives. The program aborts if it is not greater than 0 and at most 1, or if insertion has more
   /// than max_membranes membranes.
-  ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {},
-              Scalar force_scale = 1)
+  constexpr ServoStepOf(Insertion insertion, Scalar period, const GateLimits& gate = {}, const ForceLimits& limits = {},
+                        Scalar force_scale = 1)
       : Guard(insertion, period, gate, limits, force_scale), insertion_(std::move(insertion)) {}
 
   /// Clears a fault and the state of gate and model. The step is then disarmed.
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     insertion_.reset();
     Guard::reset();
   }
@@ -315,16 +315,16 @@ class ServoStepOf : public ServoGuard<typename Insertion::Scalar, typename Inser
   ///
   /// Membranes at the same place keep their proxies. The change of the force, also by another force scale, is faded in
   /// over `fade_time`, so that the hand feels no jump. Allocates no memory. Do not use `previous` afterwards.
-  void resume(ServoStepOf& previous) noexcept {
+  constexpr void resume(ServoStepOf& previous) noexcept {
     insertion_.resume(previous.insertion_);
     Guard::resume(previous);
     this->barred_ = previous.barred_;
   }
 
   /// One tick. Returns its record; `force` in it is the force for the device. The record is valid until the next step.
-  const Snapshot& step(const DeviceSample& sample) noexcept { return Guard::step(insertion_, sample); }
+  constexpr const Snapshot& step(const DeviceSample& sample) noexcept { return Guard::step(insertion_, sample); }
 
-  const Insertion& insertion() const noexcept { return insertion_; }
+  constexpr const Insertion& insertion() const noexcept { return insertion_; }
 
   /// For save_state() and load_state() (state/archive.hpp). The snapshot stays that of this object's last tick.
   /// A loaded step may be active: it gives force in its first tick.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -36,8 +35,8 @@ struct Smoothing {
   /// Half the play behind the low-pass, m. What is left of the noise moves nothing within it. A motion lags by it.
   Scalar half_play;
 
-  static Smoothing of(Scalar encoder_step) noexcept {
-    const Scalar share = std::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
+  static constexpr Smoothing of(Scalar encoder_step) noexcept {
+    const Scalar share = lane::sqrt(std::min(Scalar(1), encoder_step / Scalar(Omni::encoder_step)));
     return {Scalar(0.015) * share, share > 0 ? Scalar(200) / share : Scalar(0), Scalar(0.2) * encoder_step};
   }
 };
@@ -53,13 +52,11 @@ class PositionConditioner {
 
   /// low_pass_hz: for Conditioning::low_pass; 0 is off. encoder_step: for Conditioning::line_fit, m; 0 is off.
   /// period: s.
-  PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
-      : fits_(conditioning == Conditioning::line_fit),
-        half_play_(Smoothing<Scalar>::of(encoder_step).half_play),
-        low_pass_(fits_ ? Smoothing<Scalar>::of(encoder_step).cutoff_hz : low_pass_hz, period),
-        lines_{fit(encoder_step, period), fit(encoder_step, period), fit(encoder_step, period)} {}
+  constexpr PositionConditioner(Conditioning conditioning, Scalar low_pass_hz, Scalar encoder_step, Scalar period)
+      : PositionConditioner(conditioning == Conditioning::line_fit, low_pass_hz, encoder_step, period,
+                            Smoothing<Scalar>::of(encoder_step)) {}
 
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     for (auto& line : lines_) line.reset();
     low_pass_.state = {};
     played_ = {};
@@ -67,7 +64,7 @@ class PositionConditioner {
 
   /// Takes over the samples of another conditioner of the same period. `previous` loses its history. A line with a
   /// window of another size starts without samples.
-  void resume(PositionConditioner& previous) noexcept {
+  constexpr void resume(PositionConditioner& previous) noexcept {
     for (std::size_t i = 0; i < 3; ++i)
       if (lines_[i].size() == previous.lines_[i].size())
         std::swap(lines_[i].state, previous.lines_[i].state);
@@ -87,17 +84,19 @@ class PositionConditioner {
     low_pass_.describe(parameters);
   }
 
-  bool started() const noexcept { return low_pass_.started(); }
-  Scalar low_pass_gain() const noexcept { return low_pass_.gain(); }          ///< of a sample, 0 to 1
-  const Line* line() const noexcept { return fits_ ? &lines_[0] : nullptr; }  ///< of one axis; null: no line is fitted
+  constexpr bool started() const noexcept { return low_pass_.started(); }
+  constexpr Scalar low_pass_gain() const noexcept { return low_pass_.gain(); }  ///< of a sample, 0 to 1
+  constexpr const Line* line() const noexcept {
+    return fits_ ? &lines_[0] : nullptr;
+  }  ///< of one axis; null: no line is fitted
 
   /// Inlined without the line fit: in front of few membranes, the call is a part of the tick that one sees.
-  [[gnu::always_inline]] Vector step(const Vector& measured) noexcept {
+  [[gnu::always_inline]] constexpr Vector step(const Vector& measured) noexcept {
     return fits_ ? fitted(measured) : low_pass_.step(measured);
   }
 
  private:
-  [[gnu::noinline]] Vector fitted(const Vector& measured) noexcept {
+  [[gnu::noinline]] constexpr Vector fitted(const Vector& measured) noexcept {
     const bool first = !low_pass_.started();
     const Vector y =
         low_pass_.step({lines_[0].step(measured[0]), lines_[1].step(measured[1]), lines_[2].step(measured[2])});
@@ -105,9 +104,14 @@ class PositionConditioner {
       played_[i] = first ? y[i] : std::min(std::max(played_[i], y[i] - half_play_), y[i] + half_play_);
     return played_;
   }
-  Line fit(Scalar encoder_step, Scalar period) const {
-    return {encoder_step, Smoothing<Scalar>::of(encoder_step).window, period, low_pass_.lag()};
-  }
+  constexpr PositionConditioner(bool fits, Scalar low_pass_hz, Scalar encoder_step, Scalar period,
+                                const Smoothing<Scalar>& as)
+      : fits_(fits),
+        half_play_(as.half_play),
+        low_pass_(fits ? as.cutoff_hz : low_pass_hz, period),
+        lines_{{{encoder_step, as.window, period, low_pass_.lag()},
+                {encoder_step, as.window, period, low_pass_.lag()},
+                {encoder_step, as.window, period, low_pass_.lag()}}} {}
 
   bool fits_;
   Scalar half_play_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -26,9 +25,10 @@ class EntryDirection {
   static constexpr Scalar window = Scalar(0.010);      ///< s
   static constexpr Scalar path_window = Scalar(2e-4);  ///< m
 
-  explicit EntryDirection(Scalar period) : recent_(static_cast<std::size_t>(std::lround(window / period)) + 1) {}
+  constexpr explicit EntryDirection(Scalar period)
+      : recent_(static_cast<std::size_t>(window / period + Scalar(0.5)) + 1, Vector()) {}
 
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     std::fill(recent_.begin(), recent_.end(), Vector());
     std::fill(path_.begin(), path_.end(), Mark());
     head_ = tail_ = 0;
@@ -46,7 +46,7 @@ class EntryDirection {
   void describe(auto& parameters) const { parameters.index(recent_.size(), 0); }
 
   /// One tick. p: conditioned position of the tip, m. Returns the direction of the motion.
-  Vector step(const Vector& p) noexcept {
+  constexpr Vector step(const Vector& p) noexcept {
     if (ticks_ == 0) {
       length_ = 0;
       head_ = tail_ = 0;
@@ -86,12 +86,12 @@ class EntryDirection {
   static constexpr std::size_t marks = 64;
 
   /// Sets the length of the path to 0 at the present point. A long path would lose digits, above all in float.
-  void shorten() noexcept {
+  constexpr void shorten() noexcept {
     for (Mark& mark : path_) mark.length -= length_;
     length_ = 0;
   }
 
-  std::size_t next(std::size_t i) const noexcept { return i + 1 < path_.size() ? i + 1 : 0; }
+  constexpr std::size_t next(std::size_t i) const noexcept { return i + 1 < path_.size() ? i + 1 : 0; }
 
   typename Storage::template Samples<Vector> recent_;
   std::array<Mark, marks + 2> path_{};

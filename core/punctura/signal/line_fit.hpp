@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "punctura/model/lane.hpp"
 #include "punctura/model/storage.hpp"
 
 namespace punctura {
@@ -53,16 +53,16 @@ class LineFit {
   /// encoder_step: the resolution of the encoder, m; 0 is an ideal sensor, and its samples pass unchanged. window:
   /// length of the longest window, s. period: s. lead: step() extrapolates the line by this many ticks, to compensate
   /// the lag of a filter behind it.
-  LineFit(Scalar encoder_step, Scalar window, Scalar period, Scalar lead = 0)
+  constexpr LineFit(Scalar encoder_step, Scalar window, Scalar period, Scalar lead = 0)
       : tolerance_(steps_of_tolerance * encoder_step),
         most_square_(steps_of_scatter * encoder_step * (steps_of_scatter * encoder_step)),
         lead_(lead),
         size_(samples(window, period)),
         whole_(size_) {
-    state.ring = Ring(2 * size_);
+    state.ring = Ring(2 * size_, Scalar());
   }
 
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     state = {false, 0, 0, {}, std::move(state.ring)};
     std::fill(state.ring.begin(), state.ring.end(), Scalar{});
   }
@@ -76,7 +76,7 @@ class LineFit {
   void describe(auto& parameters) const { parameters.fields(tolerance_, most_square_, lead_, size_); }
 
   /// One tick. x: measured position, m. Returns the estimated position, m.
-  Scalar step(Scalar x) noexcept {
+  constexpr Scalar step(Scalar x) noexcept {
     if (tolerance_ == 0) return x;
     auto& [started, newest, origin, sums, ring] = state;
     if (!started) {
@@ -106,13 +106,13 @@ class LineFit {
     return x;
   }
 
-  std::size_t size() const noexcept { return size_; }  ///< samples in the longest window
+  constexpr std::size_t size() const noexcept { return size_; }  ///< samples in the longest window
 
   /// The size of the window that is tried after one of n samples; 1 is the newest sample alone.
   static constexpr std::size_t shorter(std::size_t n) noexcept { return (n / 2) | 1; }
 
   /// The weight of the sample of this age (ticks) in the result while the window of n samples, 3 or more, holds.
-  Scalar weight(std::size_t n, std::size_t age) const noexcept {
+  constexpr Scalar weight(std::size_t n, std::size_t age) const noexcept {
     return end_of(Window(n).line({1, static_cast<Scalar>(age), 1}, 0), 0);
   }
 
@@ -125,23 +125,23 @@ class LineFit {
   struct Window {
     Scalar n, inv_n, middle, inv_moment;  // moment: of the ages around their mean
 
-    explicit Window(std::size_t samples) noexcept
+    constexpr explicit Window(std::size_t samples) noexcept
         : n(static_cast<Scalar>(samples)), inv_n(1 / n), middle((n - 1) / 2), inv_moment(12 / (n * (n * n - 1))) {}
 
     /// newest: the newest sample, relative to the origin of the sums.
-    Line line(const Sums& sums, Scalar newest) const noexcept {
+    constexpr Line line(const Sums& sums, Scalar newest) const noexcept {
       const Scalar mean = sums.zero * inv_n, tilt = sums.one - middle * sums.zero, slope = tilt * inv_moment;
       return {mean - middle * slope - newest, slope, sums.square - sums.zero * mean - slope * tilt};
     }
   };
 
-  static std::size_t samples(Scalar window, Scalar period) noexcept {
-    const Scalar half = std::round(window / (2 * period));
-    return 2 * static_cast<std::size_t>(std::clamp(half, Scalar(1), Scalar(most_samples / 2))) + 1;
+  static constexpr std::size_t samples(Scalar window, Scalar period) noexcept {
+    const Scalar half = std::clamp(window / (2 * period), Scalar(1), Scalar(most_samples / 2));
+    return 2 * static_cast<std::size_t>(half + Scalar(0.5)) + 1;
   }
 
   /// The sums over the last n samples.
-  Sums sums_of(std::size_t n, Scalar origin) const noexcept {
+  constexpr Sums sums_of(std::size_t n, Scalar origin) const noexcept {
     Sums sums;
     for (std::size_t age = 0; age < n; ++age) {
       const Scalar z = state.ring[state.newest + age] - origin;
@@ -152,10 +152,10 @@ class LineFit {
     return sums;
   }
 
-  bool holds(const Line& line, const Window& window) const noexcept {
-    return line.squares <= window.n * most_square_ && std::abs(line.end) <= tolerance_;
+  constexpr bool holds(const Line& line, const Window& window) const noexcept {
+    return line.squares <= window.n * most_square_ && lane::abs(line.end) <= tolerance_;
   }
-  Scalar end_of(const Line& line, Scalar x) const noexcept { return x + (line.end - lead_ * line.slope); }
+  constexpr Scalar end_of(const Line& line, Scalar x) const noexcept { return x + (line.end - lead_ * line.slope); }
 
   Scalar tolerance_;
   Scalar most_square_;  // m^2, of the mean square of the samples' distances from a line

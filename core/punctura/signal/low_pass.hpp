@@ -17,10 +17,11 @@ namespace punctura {
 template <typename Scalar, typename Value = Scalar>
 class LowPass {
  public:
-  LowPass(Scalar cutoff_hz, Scalar period) noexcept
-      : off_(cutoff_hz == 0), gain_(1 - std::exp(-2 * std::numbers::pi_v<Scalar> * cutoff_hz * period)) {}
+  constexpr LowPass(Scalar cutoff_hz, Scalar period) noexcept
+      : off_(cutoff_hz == 0),
+        gain_(off_ ? Scalar(0) : 1 - std::exp(-2 * std::numbers::pi_v<Scalar> * cutoff_hz * period)) {}
   /// A filter with this gain of a sample, 0 to 1. off: where samples pass unchanged. For lanes, which have no exp().
-  static LowPass of_gain(const Mask<Scalar>& off, const Scalar& gain) noexcept {
+  static constexpr LowPass of_gain(const Mask<Scalar>& off, const Scalar& gain) noexcept {
     LowPass filter;
     filter.off_ = off;
     filter.gain_ = gain;
@@ -35,12 +36,12 @@ class LowPass {
   State state{};
 
   /// Forgets the samples of these lanes.
-  void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
+  constexpr void restart(const Mask<Scalar>& lanes) noexcept { state.started = state.started && !lanes; }
 
   static void archive(auto& self, auto& state) { state.fields(self.state.started, self.state.y); }
   void describe(auto& parameters) const { parameters.fields(off_, gain_); }
 
-  Value step(const Value& x) noexcept {
+  constexpr Value step(const Value& x) noexcept {
     using namespace lane;
     Value& y = state.y;
     y = select(off_ || !state.started, x, Value(y + gain_ * (x - y)));
@@ -48,16 +49,16 @@ class LowPass {
     return y;
   }
 
-  Mask<Scalar> started() const noexcept { return state.started; }  ///< whether it has had a sample
-  Scalar gain() const noexcept {
+  constexpr Mask<Scalar> started() const noexcept { return state.started; }  ///< whether it has had a sample
+  constexpr Scalar gain() const noexcept {
     using namespace lane;
     return select(off_, Scalar(1), gain_);
   }
   /// The lag behind a steady motion, in ticks.
-  Scalar lag() const noexcept { return 1 / gain() - 1; }
+  constexpr Scalar lag() const noexcept { return 1 / gain() - 1; }
 
  private:
-  LowPass() noexcept = default;
+  constexpr LowPass() noexcept = default;
 
   Mask<Scalar> off_{};
   Scalar gain_{};

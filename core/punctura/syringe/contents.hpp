@@ -1,7 +1,7 @@
 // What a syringe holds, and the pressure that it takes in one tick.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
 #include "punctura/syringe/syringe.hpp"
 
@@ -41,14 +41,15 @@ struct Room {
 /// b < 0 its usual form would lose digits by cancellation; the other form of the same root does not. Without air the
 /// root can be negative: no liquid transmits tension, so y = 0, a vacuum.
 template <typename Scalar>
-Scalar filling_pressure(Scalar liquid, Scalar air, const Room<Scalar>& room, Scalar flow, Scalar outside) noexcept {
+constexpr Scalar filling_pressure(Scalar liquid, Scalar air, const Room<Scalar>& room, Scalar flow,
+                                  Scalar outside) noexcept {
   const Scalar P_0 = static_cast<Scalar>(atmosphere);
   const Scalar s = flow + room.growth;
   // b, without the difference of two large numbers where there is no air
   const Scalar excess = (liquid - room.volume) + flow * outside;
-  if (air == 0) return std::fmax(excess / s, -P_0);
+  if (air == 0) return std::max(-P_0, excess / s);
   const Scalar b = excess + s * P_0;
-  const Scalar root = std::sqrt(b * b + 4 * s * air * P_0);
+  const Scalar root = lane::sqrt(b * b + 4 * s * air * P_0);
   return (b >= 0 ? (b + root) / (2 * s) : 2 * air * P_0 / (root - b)) - P_0;
 }
 
@@ -57,8 +58,8 @@ Scalar filling_pressure(Scalar liquid, Scalar air, const Room<Scalar>& room, Sca
 /// Implicit Euler: the flow of the tick is that of the new pressure, so no step is too long to be stable. The liquid
 /// leaves first, then the air. If one of them ends within the tick, the other flows from the next tick on.
 template <typename Scalar>
-Contents<Scalar> filled(const Contents<Scalar>& before, const BasicSyringe<Scalar>& syringe,
-                        const BasicOutlet<Scalar>& outlet, const Room<Scalar>& room, Scalar T) noexcept {
+constexpr Contents<Scalar> filled(const Contents<Scalar>& before, const BasicSyringe<Scalar>& syringe,
+                                  const BasicOutlet<Scalar>& outlet, const Room<Scalar>& room, Scalar T) noexcept {
   const Scalar P_0 = static_cast<Scalar>(atmosphere);
   const Scalar flow = T / (syringe.resistance + outlet.resistance);
   Contents<Scalar> after = before;
@@ -79,7 +80,7 @@ Contents<Scalar> filled(const Contents<Scalar>& before, const BasicSyringe<Scala
   if (out < 0) {  // what flows back is liquid, which flows less easily
     after.pressure = filling_pressure(Scalar(0), before.air, room, flow, outlet.pressure);
     const Scalar in = flow * (outlet.pressure - after.pressure);
-    after.liquid = std::fmax(in, Scalar(0));
+    after.liquid = std::max(Scalar(0), in);
     after.left = before.left - after.liquid;
     return after;
   }

@@ -45,13 +45,14 @@ class BasicPlunger {
   State state{};
 
   /// period: T, s. Check the syringe, the coupling and the period first.
-  BasicPlunger(const BasicSyringe<Scalar>& syringe, const BasicCoupling<Scalar>& coupling, Scalar period) noexcept
+  constexpr BasicPlunger(const BasicSyringe<Scalar>& syringe, const BasicCoupling<Scalar>& coupling,
+                         Scalar period) noexcept
       : syringe_(syringe), coupling_(coupling, period) {
     reset();
   }
 
   /// The full syringe, with the thumb at rest on the plunger.
-  void reset() noexcept {
+  constexpr void reset() noexcept {
     state = {};
     state.contents = {syringe_.liquid, syringe_.air};
   }
@@ -60,7 +61,7 @@ class BasicPlunger {
   /// the thumb, N: negative while it pushes.
   ///
   /// If depth is NaN or beyond 1000 km, it returns NaN and the state does not change.
-  Scalar step(Scalar depth, const BasicOutlet<Scalar>& outlet) noexcept {
+  constexpr Scalar step(Scalar depth, const BasicOutlet<Scalar>& outlet) noexcept {
     if (!is_place(depth)) return std::numeric_limits<Scalar>::quiet_NaN();
     if (!state.started) state.home = depth;
     const Scalar p = depth - state.home;
@@ -101,25 +102,25 @@ class BasicPlunger {
   }
 
   /// Whether another plunger has the same contents, barrel and coupling: then it can continue with this one's state.
-  bool same_syringe(const BasicPlunger& other) const noexcept {
+  constexpr bool same_syringe(const BasicPlunger& other) const noexcept {
     const auto& a = syringe_;
     const auto& b = other.syringe_;
     return a.bore == b.bore && a.liquid == b.liquid && a.air == b.air && a.compliance == b.compliance &&
            coupling_.K == other.coupling_.K && coupling_.B == other.coupling_.B;
   }
 
-  const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }
-  const SampledCoupling<Scalar>& coupling() const noexcept { return coupling_; }
-  Scalar force() const noexcept { return state.f; }                     ///< f(k), N, on the thumb
-  Scalar position() const noexcept { return state.p + state.e; }        ///< q(k), m, of the plunger from its start
-  Scalar pressure() const noexcept { return state.contents.pressure; }  ///< P(k), Pa
-  Scalar left() const noexcept { return state.contents.left; }          ///< through the needle so far, m^3
-  Phase phase() const noexcept { return state.phase; }
+  constexpr const BasicSyringe<Scalar>& syringe() const noexcept { return syringe_; }
+  constexpr const SampledCoupling<Scalar>& coupling() const noexcept { return coupling_; }
+  constexpr Scalar force() const noexcept { return state.f; }               ///< f(k), N, on the thumb
+  constexpr Scalar position() const noexcept { return state.p + state.e; }  ///< q(k), m, of the plunger from its start
+  constexpr Scalar pressure() const noexcept { return state.contents.pressure; }  ///< P(k), Pa
+  constexpr Scalar left() const noexcept { return state.contents.left; }          ///< through the needle so far, m^3
+  constexpr Phase phase() const noexcept { return state.phase; }
 
  private:
   /// Volume of the barrel with the plunger at q (m), without pressure, m^3. Beyond the barrel's floor it is negative:
   /// then the barrel's compliance is the stop.
-  Scalar volume(Scalar q) const noexcept { return syringe_.liquid + syringe_.air - syringe_.area() * q; }
+  constexpr Scalar volume(Scalar q) const noexcept { return syringe_.liquid + syringe_.air - syringe_.area() * q; }
 
   BasicSyringe<Scalar> syringe_;
   SampledCoupling<Scalar> coupling_;
@@ -137,7 +138,7 @@ struct BasicThumb {
 
   /// The next depth, m. depth: now, m. wanted: N, 0 or more. f: the plunger's force on the thumb, N, negative if it
   /// pushes back. period: T, s.
-  Scalar step(Scalar depth, Scalar wanted, Scalar f, Scalar period) const noexcept {
+  constexpr Scalar step(Scalar depth, Scalar wanted, Scalar f, Scalar period) const noexcept {
     return std::max(Scalar(0), depth + period * (wanted + f) / viscosity);
   }
 };

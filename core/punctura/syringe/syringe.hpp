@@ -21,7 +21,7 @@ struct BasicSyringe {
   Scalar resistance = Scalar(not_given);  ///< R_c, flow resistance of the cannula for the liquid, Pa s/m^3
 
   /// Area of the plunger, m^2.
-  Scalar area() const noexcept { return std::numbers::pi_v<Scalar> / 4 * bore * bore; }
+  constexpr Scalar area() const noexcept { return std::numbers::pi_v<Scalar> / 4 * bore * bore; }
 };
 
 using Syringe = BasicSyringe<double>;
@@ -99,10 +99,10 @@ template <typename Scalar>
 class Opening {
  public:
   /// length: X, of the opening along the needle, m, more than 0.
-  explicit Opening(Scalar length) noexcept : length_(length) {}
+  constexpr explicit Opening(Scalar length) noexcept : length_(length) {}
 
   /// The next layer to the back.
-  void pass(const LayerAtTip<Scalar>& layer) noexcept {
+  constexpr void pass(const LayerAtTip<Scalar>& layer) noexcept {
     const Scalar entered = std::min(share(layer.depth), ahead_);
     const Scalar through = std::min(share(layer.depth - layer.path_length), entered);
     add(ahead_ - entered, here_);
@@ -112,7 +112,7 @@ class Opening {
   }
 
   /// The outlet of all layers that were passed.
-  BasicOutlet<Scalar> outlet() const noexcept {
+  constexpr BasicOutlet<Scalar> outlet() const noexcept {
     Opening all = *this;
     all.add(ahead_, here_);
     return {1 / all.conductance_, all.weighted_ / all.conductance_};
@@ -122,8 +122,8 @@ class Opening {
   /// In open air only the cannula limits the flow. A finite number keeps the sum finite: a thousandth of a cannula.
   static constexpr Scalar open = Scalar(1e6);  // Pa s/m^3
 
-  Scalar share(Scalar depth) const noexcept { return std::clamp(depth / length_, Scalar(0), Scalar(1)); }
-  void add(Scalar share, const BasicOutlet<Scalar>& outlet) noexcept {
+  constexpr Scalar share(Scalar depth) const noexcept { return std::clamp(depth / length_, Scalar(0), Scalar(1)); }
+  constexpr void add(Scalar share, const BasicOutlet<Scalar>& outlet) noexcept {
     const Scalar conducts = share / std::max(outlet.resistance, open);
     conductance_ += conducts;
     weighted_ += conducts * outlet.pressure;
@@ -135,7 +135,7 @@ class Opening {
 };
 
 template <typename Scalar>
-BasicOutlet<Scalar> outlet_at(std::span<const LayerAtTip<Scalar>> layers, Scalar length) noexcept {
+constexpr BasicOutlet<Scalar> outlet_at(std::span<const LayerAtTip<Scalar>> layers, Scalar length) noexcept {
   Opening<Scalar> opening(length);
   for (const auto& layer : layers) opening.pass(layer);
   return opening.outlet();

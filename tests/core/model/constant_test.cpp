@@ -8,6 +8,7 @@
 #include <random>
 
 #include "../support/cut_law.hpp"
+#include "punctura/insertion/insertion.hpp"
 #include "punctura/model/thick_law.hpp"
 #include "punctura/model/thin_law.hpp"
 #include "punctura/model/tissue_law.hpp"
@@ -16,6 +17,13 @@
 #include "punctura/proxy/relaxing_coupling.hpp"
 #include "punctura/safety/force_limits.hpp"
 #include "punctura/safety/input_gate.hpp"
+#include "punctura/servo/servo_step.hpp"
+#include "punctura/syringe/plunger.hpp"
+
+// GCC 12 cannot move an array of vectors while it compiles ("deallocation of already deallocated storage").
+#if __cpp_lib_constexpr_vector && (defined(__clang__) || __GNUC__ > 12)
+#define PUNCTURA_WHOLE_TICKS
+#endif
 
 // Tests are compiled together; these short names are of this file.
 namespace punctura::constant_test {
@@ -66,6 +74,13 @@ static_assert([] {
   return gate.step({0, 0, {0, 2e6, 0}, {0, -1, 0}, 0, true});
 }() == Fault::non_finite_input);
 
+/// A thumb that pushes a closed syringe: the pressure holds it back, N.
+static_assert([] {
+  Plunger plunger({0.01, 1e-6, 1e-6, 0.5, 1e-13, 1e9}, coupling, period);
+  plunger.step(0, {1e15, 0});
+  return plunger.step(1e-3, {1e15, 0});
+}() < -0.5);
+
 /// The forces of a stroke in and out, on a line and in space (N).
 constexpr std::size_t ticks = 40;
 struct Forces {
@@ -89,6 +104,31 @@ constexpr Forces paper = forces(thick_law, sampled, Solver::paper), exact = forc
                  own = forces(test::CutLaw{}, sampled, Solver::exact);  // its pieces are looked at for flaws
 static_assert(near(own.line[23], -1) && own.space[23] > 0.7);
 
+#ifdef PUNCTURA_WHOLE_TICKS
+/// The forces of the device in whole ticks: gate, conditioning, proxies, fade, limits. The direction and the sub-steps
+/// of the second run are those of a device without orientation.
+constexpr std::size_t steps = 64;
+template <typename... Options>
+constexpr std::array<double, steps> whole_ticks(const SampledCoupling<double>& c, Options... options) {
+  const SiteOf<BasicThickLaw<double>> sites[] = {{thick_law, {0, 0, 0}, {0, -1, 0}},
+                                                 {thick_law, {0, -2e-3, 0}, {0, -1, 0}}};
+  using Insertion = InsertionOf<BasicThickLaw<double>>;
+  ServoStepOf<Insertion> step(Insertion(sites, c, period, options...), period, {}, {.ramp_time = period});
+  step.arm();
+  std::array<double, steps> force{};
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double y = 1e-3 - 1.5e-4 * static_cast<double>(k < 48 ? k : 95 - k);
+    force[k] = step.step({k, static_cast<double>(k) * period, {0, y, 0}, {0, -1, 0}, 0, true}).force[1];
+  }
+  return force;
+}
+constexpr auto without_orientation(const SampledCoupling<double>& c) {
+  return whole_ticks(c, Solver::paper, 0.0, Direction::motion, Conditioning::line_fit, 0.0, std::uint32_t{2});
+}
+constexpr auto plain_ticks = whole_ticks(sampled), other_ticks = without_orientation(sampled);
+static_assert(plain_ticks[40] > 0.5 && plain_ticks[63] < 0 && other_ticks[40] > 0.5);
+#endif
+
 }  // namespace
 
 TEST_CASE("both solvers give the same bits while the program is compiled and while it runs") {
@@ -102,6 +142,10 @@ TEST_CASE("both solvers give the same bits while the program is compiled and whi
   const Forces own_now = forces(test::CutLaw{}, now, Solver::exact);
   CHECK(own_now.line == own.line);
   CHECK(own_now.space == own.space);
+#ifdef PUNCTURA_WHOLE_TICKS
+  CHECK(whole_ticks(now) == plain_ticks);
+  CHECK(without_orientation(now) == other_ticks);
+#endif
   auto constants = relaxing.constants();
   constants.K = stiffness;
   const Forces tissue_now = forces(measured, RelaxingCoupling<double>(constants), Solver::exact);
