@@ -67,17 +67,22 @@ def sentence(page: Page, words: str) -> None:
     expect(page.locator(".stage-sentence")).to_contain_text(words)
 
 
-def stroke(page: Page, most: int = 20) -> None:
-    """Through the membrane and out again, by keys; again, at most so often, if a slow computer was not through."""
-    words = page.locator(".stage-sentence")
-    before = words.inner_text()
-    for _ in range(most):
-        for key in ("Shift+ArrowDown", "Shift+ArrowUp"):
-            for _ in range(20):
-                page.keyboard.press(key)
-            page.wait_for_timeout(500)
-        if words.inner_text() != before:
-            return
+def stroke(page: Page) -> None:
+    """Through the membrane and out again, by keys."""
+    for key in ("Shift+ArrowDown", "Shift+ArrowUp"):
+        for _ in range(20):
+            page.keyboard.press(key)
+        page.wait_for_timeout(500)
+
+
+def until(page: Page, words: str) -> None:
+    """Strokes until the page says this; "Go on" after a trial that a busy computer has spoilt."""
+    while words not in (now := page.locator(".stage-sentence").inner_text()):
+        if "push the needle" in now:
+            stroke(page)
+        elif "repeated" in now or "comes back" in now:
+            page.keyboard.press("Enter")
+        page.wait_for_timeout(100)
 
 
 def on_disk(folder: Path) -> list[Line]:
@@ -97,7 +102,7 @@ def act(page: Page) -> int:
     """What a person does now. Returns how many answers the page said to be on the disk."""
     words = page.locator(".stage-sentence").inner_text()
     if "push the needle" in words:
-        stroke(page, 1)
+        stroke(page)
     page.keyboard.press("y" if "Did it pop?" in words or "Do you agree?" in words else "Enter")
     page.wait_for_timeout(50)
     found = re.match(r"Trial (\d+) of|(\d+) of", words)

@@ -6,7 +6,7 @@ from person import opened
 from playwright.sync_api import expect
 from punctura.perception import Observer, Simulation, load_protocol, write_report
 from senses import STUBS
-from sitting import answered, on_disk, sentence, sitting, stroke
+from sitting import answered, on_disk, sentence, sitting, until
 
 
 def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, tmp_path):
@@ -23,15 +23,13 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
         expect(page.locator(".stage-curve")).to_be_hidden()
         expect(page.locator(".view-main > canvas")).to_have_css("opacity", "0")
         expect(page.get_by_role("button")).to_have_count(1)  # turns the force off
-        stroke(page)
-        sentence(page, "Did it pop?")
+        until(page, "Did it pop?")
         for name in ("yes", "no"):
             box = page.get_by_role("button", name=name).bounding_box()
             assert box and min(box["width"], box["height"]) >= 44
         page.keyboard.press("y")
-        sentence(page, "Trial 20 of 20")
-        stroke(page)
-        sentence(page, "Did it pop?")
+        until(page, "Trial 20 of 20")
+        until(page, "Did it pop?")
         assert len(on_disk(tmp_path)) == 19
         studio.kill()
         sentence(page, "The studio is not connected.")
@@ -39,9 +37,7 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
         with sitting(tmp_path, studio.port):
             sentence(page, "19 of 20 trials are done.")
             page.keyboard.press("Enter")
-            sentence(page, "Trial 20 of 20")
-            stroke(page)
-            sentence(page, "Did it pop?")
+            until(page, "Did it pop?")
             page.keyboard.press("n")
             sentence(page, "That was the last trial.")
     assert [line.answer for line in on_disk(tmp_path)][18:] == ["yes", "no"]
@@ -53,8 +49,7 @@ def test_nothing_but_the_force_tells_of_a_pop_though_the_browser_remembers_bench
         sentence(page, "18 of 20 trials are done.")
         page.keyboard.press("Enter")
         sentence(page, "Trial 19 of 20: push")
-        stroke(page)
-        sentence(page, "Did it pop?")
+        until(page, "Did it pop?")
         assert page.evaluate("[heard, rumbled]") == [["friction"] * 2, []]  # one whose volume stays 0, and the masking
         assert "warning: No haptic device" in studio.log() and "on PHANTOM Omni, simulated" in studio.log()
 
