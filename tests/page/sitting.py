@@ -36,6 +36,10 @@ levels = [0.0005, 0.0015, 0.0027, 0.0045]
 total = 20
 [values]
 "display.force_scale" = 0.8
+[words]
+force_off = "Kraft aus (Esc)"
+gone = "Das Studio ist weg."
+sound = "Eine Taste bringt den Ton."
 """
 TOKEN = "a-token-of-this-test"
 TRIALS = 20

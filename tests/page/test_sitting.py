@@ -13,10 +13,10 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
     answered(tmp_path, 18)
     with sitting(tmp_path) as studio, opened(browser, studio.url, sound="on", bench=False) as page:
         sentence(page, "18 of 20 trials are done.")
-        expect(page.get_by_text("Press a key or touch the page for the sound.")).to_be_visible()
+        expect(page.get_by_text("Eine Taste bringt den Ton.")).to_be_visible()
         page.keyboard.press("Enter")
         sentence(page, "Trial 19 of 20: push the needle through the tissue")
-        expect(page.get_by_text("Press a key or touch the page for the sound.")).to_be_hidden()
+        expect(page.get_by_text("Eine Taste bringt den Ton.")).to_be_hidden()
         page.evaluate("document.querySelector('.fault').append('The force is off.')")  # the sentence tells it
         expect(page.locator(".fault")).to_be_hidden()
         expect(page.locator(".stage-force")).to_be_hidden()
@@ -32,8 +32,8 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
         until(page, "Did it pop?")
         assert len(on_disk(tmp_path)) == 19
         studio.kill()
-        sentence(page, "The studio is not connected.")
-        expect(page.get_by_role("button")).to_have_text(["Force off (Esc)"])
+        sentence(page, "Das Studio ist weg.")
+        expect(page.get_by_role("button")).to_have_text(["Kraft aus (Esc)"])
         with sitting(tmp_path, studio.port):
             sentence(page, "19 of 20 trials are done.")
             page.keyboard.press("Enter")

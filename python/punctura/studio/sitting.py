@@ -55,7 +55,8 @@ class PerceptionSitting:
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
         self._words, self._folder = protocol.file.words, studio.shelf.folder
         self._shown = SittingMessage(
-            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise
+            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise,
+            **self._words.model_dump(include={"force_off", "sound", "gone", "number"}),
         )
         self._then: Then = lambda answer: None
         self._read: dict[str, str] = {}  # each answer as the participant reads it

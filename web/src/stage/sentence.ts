@@ -29,7 +29,7 @@ export class Sentence {
   private choose(bands: readonly Band[], now: Felt | null): string | Words {
     const { app, progress } = this;
     if (app.sitting.value)
-      return app.connection.value.state === "open" ? app.sitting.value.sentence : "The studio is not connected.";
+      return app.connection.value.state === "open" ? app.sitting.value.sentence : app.sitting.value.gone;
     const { excerpt, paused, live, title } = app.source.value;
     const simulated = app.hello.value?.device.simulated ?? true;
     const skin = app.live.scene.value?.membranes[0]?.name ?? "tissue";

@@ -11,12 +11,10 @@ export const sitting: Panel = (root, app) => {
   const answers = element("div", { role: "group", "aria-label": "Answers" });
   const typed = element("input", {
     inputmode: "decimal",
-    "aria-label": "A number above 0",
-    placeholder: "then Enter",
     autocomplete: "off",
   });
   const off = (): void => void app.ask({ do: "pause" });
-  const stop = element("button", { type: "button", class: "sitting-stop", onclick: off }, "Force off (Esc)");
+  const stop = element("button", { type: "button", class: "sitting-stop", onclick: off });
   const sound = maskingNoise(app);
   const box = element(
     "section",
@@ -52,6 +50,8 @@ export const sitting: Panel = (root, app) => {
       ),
     );
     answers.replaceChildren(...buttons);
+    stop.textContent = now.force_off;
+    typed.placeholder = typed.ariaLabel = now.number;
     typed.hidden = gone || !now.any_number;
     typed.value = "";
     const next = now.any_number ? typed : root.querySelector<HTMLElement>('[role="application"]');
@@ -90,9 +90,10 @@ const NOISE_S = 20;
 
 /** Browsers block sound that no key and no click began. An answer by the device's buttons is neither. */
 function maskingNoise(app: App): { begin: () => void; show: () => void; missing: HTMLElement } {
-  const missing = element("p", { role: "status", hidden: true }, "Press a key or touch the page for the sound.");
+  const missing = element("p", { role: "status", hidden: true });
   let context: AudioContext | null = null;
   const show = (): void => {
+    missing.textContent = app.sitting.value?.sound ?? "";
     missing.hidden = !app.sitting.value?.noise || context?.state === "running";
   };
   const begin = (): void => {

@@ -40,11 +40,11 @@ it("tells who could move the needle, and that the studio is gone", () => {
   const sentence = new Sentence(app);
   control(false, null);
   expect(sentence.words([SKIN], null)).toEqual({ text: "Nobody moves the needle.", takeOver: true });
-  for (const session of [null, { sentence: "Push." }]) {
+  for (const session of [null, { sentence: "Push.", gone: "Weg." }]) {
     app.sitting.value = session as never;
     server.connection({ state: "open" });
     if (session) expect(sentence.words([SKIN], null).text).toBe("Push.");
     server.connection({ state: "closed", retry: 0 } as never);
-    expect(sentence.words([SKIN], INSIDE).text).toBe("The studio is not connected.");
+    expect(sentence.words([SKIN], INSIDE).text).toBe(session?.gone ?? "The studio is not connected.");
   }
 });

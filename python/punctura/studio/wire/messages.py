@@ -209,6 +209,10 @@ class SittingMessage(Part):
     any_number: bool  # above 0: it is an answer
     covered: bool  # the view is hidden
     noise: bool  # pink noise plays, which masks the motors
+    force_off: str  # this and the next three: what the page itself says
+    sound: str
+    gone: str
+    number: str
 
 
 class Reply(Part):
