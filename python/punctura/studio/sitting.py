@@ -54,9 +54,9 @@ class PerceptionSitting:
         self._tell = tell
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
         self._words, self._folder = protocol.file.words, studio.shelf.folder
+        page = self._words.model_dump(include={"force_off", "sound", "gone", "number"})
         self._shown = SittingMessage(
-            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise,
-            **self._words.model_dump(include={"force_off", "sound", "gone", "number"}),
+            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise, **page
         )
         self._then: Then = lambda answer: None
         self._read: dict[str, str] = {}  # each answer as the participant reads it
