@@ -16,7 +16,7 @@ from punctura.files.whole_file import private, private_folder, sync
 from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.stimulus import Felt
-from punctura.record.new_file import lock
+from punctura.record.new_file import in_use, lock
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
@@ -229,11 +229,14 @@ def recordings(folder: Path, participant: str, trial: str = r"\d{4,}") -> list[P
 def delete_participant(folder: Path, participant: str) -> list[Path]:
     """Deletes all that the folder has of a participant, and what was computed from it; returns the paths.
 
-    Raises SessionError if there is nothing.
+    Raises SessionError if there is nothing, or if a program runs the participant's session: its later answers would
+    be lost.
     """
     path = folder / f"{participant}{SUFFIX}"
     if not _PSEUDONYM.fullmatch(participant) or not path.is_file():
         raise SessionError(f"{folder} has no participant {participant!r}")
+    if in_use(path):
+        raise SessionError(f"{path}: another program runs this participant's session; end it first, and delete again")
     written = [file for name in WRITTEN if (file := folder / name).is_file()]
     found = [*sorted(recordings(folder, participant)), *written, path]
     for file in found:

@@ -141,6 +141,8 @@ def test_participants_have_their_own_numbers_and_can_be_deleted(
         monkeypatch.setattr(os, "fsync", lambda file: (synced.add(os.fstat(file).st_ino), sync(file)))
         session.add(trial, *felt, recordings=[recording.name])
         assert {file.stat().st_ino for file in (tmp_path, recording, session.path)} <= synced  # after a loss of power
+        with pytest.raises(SessionError, match="end it first"):  # later answers would be lost
+            delete_participant(tmp_path, "P01")
     assert {recording, tmp_path / "P01.jsonl"} < set(delete_participant(tmp_path, "P01"))
     assert {path.name for path in tmp_path.iterdir()} == {"P02.jsonl"}
     with pytest.raises(SessionError, match="has no participant"):
