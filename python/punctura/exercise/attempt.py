@@ -21,7 +21,7 @@ from punctura.exercise.goals.goal import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
 from punctura.exercise.motion import Stays
 from punctura.exercise.result import Coaching, GoalState, Result, Status
-from punctura.exercise.ticks import Flags, Geometry, JudgedTicks, Moment, first_of, moment
+from punctura.exercise.ticks import Flags, Geometry, JudgedTicks, Moment, by, first_of, moment
 from punctura.exercise.yields import Yields
 
 
@@ -233,7 +233,10 @@ class Attempt:
         if self._passed or self._achieved:
             lost = self._measures.unfelt(ended)
             sentences = words.passed(self._achievements, self._measures, self._space, first)
-            sentences += [one.why_not_measured(self._decision, first) for one in self._unmeasured]
+            missing = [one for one in self._unmeasured if by(one.unseen, self._decision)]
+            sentences += words.readings_missing(missing)
+            left = [one for one in self._unmeasured if one not in missing]
+            sentences += [one.why_not_measured(self._decision, first) for one in left]
             return sentences + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))

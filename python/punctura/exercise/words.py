@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from punctura._core import Fault, describe
 from punctura.exercise.fields import Space
-from punctura.exercise.goals.goal import Achievement
+from punctura.exercise.goals.goal import Achievement, LimitJudge
 from punctura.exercise.losses import remedy
 from punctura.exercise.measures import Measures
 from punctura.exercise.quantities import tenths
@@ -24,6 +24,18 @@ def not_felt(loss: Loss | PlungerLoss) -> str:
         f"Not judged as passed: the {device} could not show the loss of resistance of the {loss.name} "
         f"({loss.figures}). {remedy(loss)}"
     )
+
+
+def readings_missing(limits: Sequence[LimitJudge]) -> list[str]:
+    """Names all limits that were not measured because the computer missed readings, in one sentence."""
+    times = [limit.unseen.time for limit in limits if limit.unseen is not None]
+    if not times:
+        return []
+    names = ", ".join(f"“{limit.text}”" for limit in limits)
+    return [
+        f"Not measured: {names}. Readings were missing at {tenths(min(times))} s of the run, because the computer was "
+        "too busy: close other programs, and try again."
+    ]
 
 
 def too_deep(space: Space) -> str:

@@ -136,9 +136,16 @@ def test_a_limit_is_not_met_where_its_readings_were_missing(write, kind, cuts):
         assert states(made) == ["met", "met"]
         return
     assert not result.passed and states(made) == ["met", "not measured"]
-    assert "Readings were missing" in result.reasons[-1]
+    assert "Readings were missing" in result.reasons[-1] and "close other programs" in result.reasons[-1]
     few = attempt(write, without(columns, 700, 720), *goals, cuts=cuts)  # 12 ms: nothing happens unseen
     assert states(few) == ["met", "met"]
+
+
+def test_missing_readings_are_told_once_for_all_goals(write):
+    columns = without(ideal(SCENE, (0, 5, 0), (0, -6, 0), stops=1), 700, 1200)
+    result = attempt(write, columns, goal("stay", seconds=0.5), LIMITS["entries"], LIMITS["peak_force"]).finish()
+    told = [reason for reason in result.reasons if "Readings were missing" in reason]
+    assert len(told) == 1 and told[0].count("“") == 2
 
 
 def test_a_force_that_is_no_number_is_not_a_small_one(write):

@@ -10,7 +10,6 @@ from punctura.errors import Problem
 from punctura.events import Event
 from punctura.exercise.fields import Space, Start, Word
 from punctura.exercise.motion import MOST_GAP_S
-from punctura.exercise.quantities import tenths
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import Seen
 from punctura.exercise.ticks import Flags, JudgedTicks, Moment, TargetSpace, by, first_of
@@ -84,9 +83,7 @@ class LimitJudge(Judge):
         raise NotImplementedError
 
     def why_not_measured(self, until: Moment | None, first: str) -> str:
-        """first: name of the first membrane."""
-        if self.unseen is not None and by(self.unseen, until):
-            return f"Not measured: “{self.text}”. Readings were missing at {tenths(self.unseen.time)} s of the run."
+        """The reason, if no readings were missing. first: name of the first membrane."""
         if by(self.gone, until):
             return f"Not measured: “{self.text}”, because the page was late then, so that nobody moved the needle."
         return self.never_measured(first)
