@@ -235,8 +235,8 @@ class Attempt:
             sentences = words.passed(self._achievements, self._measures, self._space, first)
             missing = [one for one in self._unmeasured if by(one.unseen, self._decision)]
             sentences += words.readings_missing(missing)
-            left = [one for one in self._unmeasured if one not in missing]
-            sentences += [one.why_not_measured(self._decision, first) for one in left]
+            others = [one for one in self._unmeasured if one not in missing]
+            sentences += [one.why_not_measured(self._decision, first) for one in others]
             return sentences + [words.not_felt(one) for one in lost]
         left = [one for one in self._achievements if one.met is None]
         return list(dict.fromkeys(words.open_still(one, self._measures, self._space, first) for one in left))
