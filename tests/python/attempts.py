@@ -51,9 +51,10 @@ def judged(
     cuts: int | Iterable[int] = 160,
     scene: pn.Scene | None = None,
     second_device: bool = False,
+    simulated: bool = False,
 ) -> Attempt:
     """cuts: ticks in a batch, or where batches begin. A page gets 27 at once; larger ones take less time."""
-    attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene), second_device)
+    attempt = Attempt(exercise, scene or as_a_device_runs_it(exercise.scene), second_device, simulated)
     for batch in cut(columns, range(0, len(columns["depth"]), cuts) if isinstance(cuts, int) else cuts):
         attempt.add(batch)
     return attempt
@@ -129,3 +130,19 @@ behind = "front vein wall"
 in_front_of = "back vein wall"
 sign = "the flash-back"
 """
+
+
+def without(columns: Columns, start: int, end: int) -> Columns:
+    """Without these ticks: their readings are missing."""
+    keep = np.ones(len(columns["tick"]), dtype=bool)
+    keep[start:end] = False
+    return {name: column[keep] for name, column in columns.items()}
+
+
+def late(columns: Columns, *stalls: tuple[int, float]) -> Columns:
+    """The same ticks of a computer that is busy before some of them: (tick, s). On a simulated device nothing moves
+    meanwhile."""
+    time = columns["time"].copy()
+    for tick, seconds in stalls:
+        time[tick:] += seconds
+    return columns | {"time": time}

@@ -19,7 +19,7 @@ from punctura.exercise.exercise import Exercise
 from punctura.exercise.goals import GOALS
 from punctura.exercise.goals.goal import Achievement, LimitJudge
 from punctura.exercise.measures import Measures
-from punctura.exercise.motion import Stays
+from punctura.exercise.motion import Stays, Ways
 from punctura.exercise.result import Coaching, GoalState, Result, Status
 from punctura.exercise.ticks import Flags, Geometry, JudgedTicks, Moment, by, first_of, moment
 from punctura.exercise.yields import Yields
@@ -33,8 +33,9 @@ class Attempt:
     still measured.
     """
 
-    def __init__(self, exercise: Exercise, scene: Scene, second_device: bool = False) -> None:
-        """scene: the running scene, at the device's rate. second_device: the thumb is on one, not on a key.
+    def __init__(self, exercise: Exercise, scene: Scene, second_device: bool = False, simulated: bool = False) -> None:
+        """scene: the running scene, at the device's rate. second_device: the thumb is on one, not on a key. simulated:
+        the needle's device is.
 
         Raises ConfigurationError if the exercise does not fit the scene.
         """
@@ -46,8 +47,8 @@ class Attempt:
         by_kind = sorted(zip(exercise.goals, self._judges, strict=True), key=lambda one: kinds.index(one[0].kind))
         self._limits = [judge for judge in self._judges if isinstance(judge, LimitJudge)]
         self._achievements = [judge for judge in self._judges if isinstance(judge, Achievement)]
-        self._geometry = Geometry(scene)
-        self._stays = Stays(self._space)
+        self._geometry = Geometry(scene, simulated)
+        self._stays, self._ways = Stays(self._space), Ways(self._space)
         self._yields = Yields(self._space, asked_push(exercise.file), scene.servo.rate, second_device)
         must = felt_membranes(exercise.file, scene)
         self._measures = Measures(
@@ -99,9 +100,8 @@ class Attempt:
                 return
             self._begun = True
             ticks = ticks.part(slice(int(ready.argmax()), None))
-        self._judge(
-            self._yields.mark(self._stays.mark(ticks)), [event for event in events if event.tick >= ticks.tick[0]]
-        )
+        events = [event for event in events if event.tick >= ticks.tick[0]]
+        self._judge(self._yields.mark(self._ways.mark(self._stays.mark(ticks), events)), events)
 
     def _judge(self, ticks: JudgedTicks, events: list[Event]) -> None:
         for limit in self._limits:
@@ -264,6 +264,7 @@ class Attempt:
                 *self._reasons(ended=True),
                 *words.of_force(self._measures),
                 *words.of_page(self._measures.page_late),
+                *words.of_computer(self._measures.computer_late),
             ],
             goals=self._goals(ended=True),
             metrics=self._measures.metrics(),

@@ -48,7 +48,7 @@ def held_still(seen: Seen) -> Iterator[Remark]:
 
 def pushed_steadily(seen: Seen) -> Iterator[Remark]:
     seconds = seen.metrics.time_to_target
-    if seconds is not None and seen.pauses.number == 0 and seen.metrics.entries == 1:
+    if seconds is not None and seen.steady and seen.metrics.entries == 1:
         text = f"You pushed without a pause from the {seen.first} to {seen.space.name}, at the first entry."
         yield Remark(about="pauses", text=text, numbers={"to_target_s": seconds})
 
@@ -57,7 +57,7 @@ def kept_the_line(seen: Seen) -> Iterator[Remark]:
     m = seen.metrics
     if m.lateral_deviation is None or m.net_distance is None or m.net_distance < 5e-3:
         return
-    if m.lateral_deviation <= ASIDE_GOOD_M:
+    if seen.trajectory.tissue_read and m.lateral_deviation <= ASIDE_GOOD_M:
         text = f"You kept to the line of entry: the tip went {no_more_than(m.lateral_deviation)} to its side."
         yield Remark(about="aside", text=text, numbers={"aside_m": m.lateral_deviation})
 
@@ -84,6 +84,8 @@ def too_short(seen: Seen) -> Iterator[Remark]:
     ended_early = seen.decision is not None and not seen.timed_out
     if seen.passed or ended_early or not (math.isfinite(trajectory.nearest) and math.isfinite(trajectory.tip_nearest)):
         return
+    if not trajectory.tissue_read:
+        return  # nobody knows how deep it was
     arrived = seen.arrival is not None
     whole = space.stay_whole if arrived else space.arrive_whole
     if arrived and (not space.stay_whole or seen.metrics.longest_stay > 0):
@@ -122,14 +124,14 @@ def pressed(seen: Seen) -> Iterator[Remark]:
 
 
 def left_the_space(seen: Seen) -> Iterator[Remark]:
-    if seen.hold_s is None or seen.stays < 2:
+    left, longest = seen.trajectory.left, seen.metrics.longest_stay
+    if seen.hold_s is None or left == 0:
         return
-    longest = seen.metrics.longest_stay
     text = (
-        f"You left {seen.space.name} {times(seen.stays - 1)} before you had held for {seen.hold_s:g} s; your "
+        f"You left {seen.space.name} {times(left)} before you had held for {seen.hold_s:g} s; your "
         f"longest stay was {tenths(longest)} s: stop, keep the needle still, and only then count."
     )
-    yield Remark(about="left", text=text, numbers={"stays": seen.stays, "longest_s": longest})
+    yield Remark(about="left", text=text, numbers={"stays": left + 1, "longest_s": longest})
 
 
 def trembled(seen: Seen) -> Iterator[Remark]:
@@ -196,6 +198,7 @@ class Coach:
         )  # fmt: skip
         change = list({one.about: one for one in reversed(list(self._change(seen, missed)))}.values())[::-1]
         wrong = {about for one in change for about in (one.about, *CONTRADICTS.get(one.about, ()))}
+        wrong |= {about for one in self._limits if one.state(decision, True) != "met" for about in one.subjects}
         good = [one for one in self._good(seen) if one.about not in wrong]
         return Coaching(good=good[:MOST_REMARKS], change=change[:MOST_REMARKS])
 

@@ -17,6 +17,7 @@ from punctura.files.toml import Tables, decoded, parse_toml, read_tables
 from punctura.scene import load_scene, scene_names
 
 _FOLDER = Path(__file__).parents[1] / "ready_exercises"
+SIMULATED = "simulated"  # the backend whose needle moves in its ticks only
 _A_SCENE = "is a scene file, not an exercise file: an exercise has a [space] and [[goal]] tables, and names its scene"
 
 
@@ -116,7 +117,9 @@ def score(recording: str | os.PathLike[str], exercise: Exercise | str, person: s
         raise RecordingError(f"{opened.path}: the force is that of {names}: {reason}")
     wanted = load_exercise(exercise) if isinstance(exercise, str) else exercise
     try:
-        attempt = Attempt(wanted, opened.info.scene, opened.info.header.second_device is not None)
+        header = opened.info.header
+        simulated = header.device.backend == SIMULATED
+        attempt = Attempt(wanted, opened.info.scene, header.second_device is not None, simulated)
     except ConfigurationError as bad:
         raise ConfigurationError([_with_remedy(p, wanted) for p in bad.problems], os.fspath(recording)) from None
     for columns, _ in recorded_ticks(opened):

@@ -12,7 +12,7 @@ from punctura.events import Event
 from punctura.exercise.losses import Losses
 from punctura.exercise.motion import Path, PathSoFar
 from punctura.exercise.result import Loss, Metrics, Overshoot, PlungerLoss, Yield, unfelt
-from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, Moment, TargetSpace, contacts
+from punctura.exercise.ticks import LATE_S, Geometry, JudgedTicks, Moment, TargetSpace, contacts, own_time
 from punctura.exercise.yields import YieldMeasures
 from punctura.live.force_words import CUTS, LIMIT_WORDS
 
@@ -53,6 +53,9 @@ class Measures:
         self.longest_stay = 0.0
         self.dwell = 0.0
         self._overshoots: list[Overshoot] = []
+        self._own_ends: list[float] = []  # s, of their windows, on the needle's own clock
+        self._aside = 0.0  # m, since the last entry
+        self._touch_late = self._late_now = 0.0  # s that the computer had lost at the first contact, and by now
         self._path: Path | None = None
         self._way: PathSoFar | None = None  # the path to the space, once it was reached
         self._entry_angle: float | None = None
@@ -72,10 +75,16 @@ class Measures:
         self.entries += len(touches)
         if touches and self.first_touch is None:
             self.first_touch = touches[0].time
-        off = (ticks.ceiling <= 0) & ticks.inside.any(axis=1)
+            self._touch_late = touches[0].time - own_time(ticks, touches[0])
+        self._late_now = float(ticks.time[-1] - ticks.own[-1])
+        off = (ticks.ceiling <= 0) & ticks.in_tissue
+        aside = np.where(ticks.in_tissue, ticks.aside, 0.0)
         if touches:
-            self._off, off = 0, off[ticks.tick >= touches[-1].tick]
+            since = ticks.tick >= touches[-1].tick
+            self._off, off = 0, off[since]
+            self._aside, aside = 0.0, aside[since]
         self._off += int(off.sum())
+        self._aside = float(np.maximum(self._aside, aside.max()))
         if self.first_touch is not None:
             self._late += int(((ticks.age > LATE_S) & (ticks.time >= self.first_touch)).sum())
         for name in CUTS:
@@ -85,7 +94,11 @@ class Measures:
         self._force_scale = float(ticks.force_scale[-1])
         self._losses.add(ticks, events)
         self._yields.begin(ticks)
-        self._overshoots += [self._overshoot(event) for event in events if event.what == "pop"]
+        for event in events:
+            if event.what == "pop":
+                one = self._overshoot(event)
+                self._overshoots.append(one)
+                self._own_ends.append(own_time(ticks, event) + one.seconds)
         self.settle(ticks)
         arrived = self._space.arrived(ticks)
         self._follow(ticks, touches, int(arrived.argmax()) if arrived.any() else None)
@@ -97,18 +110,17 @@ class Measures:
         """Measures overshoots and injected volumes to the end of their windows, also after the decision."""
         self._yields.settle(ticks)
         for k, one in enumerate(self._overshoots):
-            rows = (ticks.time >= one.time) & (ticks.time <= one.time + one.seconds)
+            rows = (ticks.time >= one.time) & (ticks.own <= self._own_ends[k])
             if rows.any():
                 farthest = float(ticks.run_on[rows, one.membrane].max())
                 self._overshoots[k] = one.model_copy(update={"distance": max(one.distance, farthest)})
         if len(ticks):
-            self._seen_to = float(ticks.time[-1])
+            self._seen_to = float(ticks.own[-1])
 
     @property
     def settled(self) -> bool:
         """Whether all windows have ended."""
-        ends = [one.time + one.seconds for one in self._overshoots]
-        return all(self._seen_to > end for end in (*ends, *self._yields.ends))
+        return all(self._seen_to > end for end in (*self._own_ends, *self._yields.ends))
 
     def _count(self, ticks: JudgedTicks) -> None:
         first, last = int(ticks.tick[0]), int(ticks.tick[-1])
@@ -158,6 +170,11 @@ class Measures:
         return self._late / self._rate
 
     @property
+    def computer_late(self) -> float:
+        """Time since the first contact that a late computer took from a simulated needle, s."""
+        return 0.0 if self.first_touch is None else max(0.0, self._late_now - self._touch_late)
+
+    @property
     def elapsed(self) -> float:
         """Time from the first contact to the last tick before the decision, s."""
         return self._last_time - self.first_touch if self.first_touch is not None else 0.0
@@ -193,7 +210,7 @@ class Measures:
             path_length=way.length if way else None,
             net_distance=way.net if way else None,
             straightness=way.length / way.net if way and way.net > 0 else None,
-            lateral_deviation=way.deviation if way else None,
+            lateral_deviation=self._aside if way and math.isfinite(self._aside) else None,
             entry_angle=self._entry_angle,
             time_to_target=self.arrival - touched if self.arrival is not None and touched is not None else None,
             total_time=self.elapsed,
@@ -201,4 +218,5 @@ class Measures:
             force_cut=self.force_cut,
             force_off=self.force_off,
             page_late=self.page_late,
+            computer_late=self.computer_late,
         )

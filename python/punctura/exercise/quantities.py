@@ -15,7 +15,12 @@ def mm(metres: float) -> str:
 
 def no_more_than(metres: float) -> str:
     """The largest distance; what is rounded to nothing has no number."""
-    return "less than 0.1 mm" if metres < 0.05e-3 else f"at most {mm(metres)}"
+    return more(metres) if metres < 0.05e-3 else f"at most {mm(metres)}"
+
+
+def more(metres: float) -> str:
+    """A distance that is not zero; what is rounded to nothing has no number."""
+    return "less than 0.1 mm" if metres < 0.05e-3 else mm(metres)
 
 
 def millilitres(cubic_metres: float) -> str:

@@ -143,18 +143,20 @@ class Metrics(_Part):
     losses: list[Loss] = []  # of resistance, at each pop
     yields: list[Yield] = []  # of the syringe's plunger
     overshoot: list[Overshoot]  # behind each membrane that gave
+    # Of the needle's own clock, on which a late computer takes no time:
     dwell: Finite  # s, total time in the space: of the whole tip if a stay goal asks for it, else of the point
     longest_stay: Finite  # s, longest time in the space without a break
     path_length: Finite | None  # m, tip's path from the last entry to the space, else to the deepest point
     net_distance: Finite | None  # m, straight distance between the same two points
     straightness: Finite | None  # path_length / net_distance: 1 is straight
-    lateral_deviation: Finite | None  # m, largest distance from the line of entry
+    lateral_deviation: Finite | None  # m, largest distance from the line of the last entry, in the tissue
     entry_angle: Finite | None  # rad, between the needle and the first surface at the last entry
     time_to_target: Finite | None  # s, from the first contact to the first arrival, as the reach goal defines it
     total_time: Finite  # s, from the first contact to the decision
     lost_ticks: int  # that the recording lacks
     force_cut: dict[str, Finite] = {}  # s, time in which the device's force was below the model's, by limit
     page_late: Finite = 0.0  # s, time since the first contact in which the page that moves the hand was late
+    computer_late: Finite = 0.0  # s, time since then in which a simulated needle stood still, because ticks were late
     force_off: Finite = 0.0  # s, time since the last entry in which the tissue gave no force to the hand
 
 

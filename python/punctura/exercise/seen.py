@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from punctura.events import Event
-from punctura.exercise.motion import PAUSE_SPEED, TICK_S
+from punctura.exercise.motion import TICK_S, Gaps
 from punctura.exercise.quantities import degrees
 from punctura.exercise.result import Metrics, Overshoot, Remark
-from punctura.exercise.ticks import LATE_S, Flags, JudgedTicks, Moment, Numbers, TargetSpace
+from punctura.exercise.ticks import GONE_S, JudgedTicks, Moment, Numbers, TargetSpace
 
 MOST_REMARKS = 3  # of each sort that a result keeps; the page and the command show the first
 STEADILY = "push slowly but without a pause"
@@ -32,6 +31,7 @@ CROOKED = 1.1  # path length through straight distance
 PAUSE_S = 1.0  # a shorter stop is not a pause
 PAUSES_S = 2.0  # all pauses together, from which the coach speaks
 
+SHORT_STAY_S = 0.1  # whoever was in the space for less did not leave it
 HOLD_S = 1.0  # a shorter stay says nothing about holding still
 HOLD_SETTLE_S = 0.3  # the beginning of a stay, in which the needle still arrives
 SMOOTH_S = 0.25  # what is slower is drift, what is faster is tremor (8 to 12 Hz in a healthy hand)
@@ -64,11 +64,9 @@ class _Recent(NamedTuple):
 class Samples(NamedTuple):
     """The attempt at SAMPLES_HZ, or at the rate of the device if that is lower."""
 
-    time: Numbers  # s
+    time: Numbers  # s, on the needle's own clock
     tip: Numbers  # (n, 3), m
-    inside: Flags  # a membrane holds the needle
-    in_space: Flags  # of the point, or of the whole tip if the exercise asks for it
-    late: Flags  # the page that moves the hand is late
+    stay: Numbers  # s, of the point in the space, or of the whole tip if the exercise asks for it
 
 
 class Trajectory:
@@ -79,6 +77,13 @@ class Trajectory:
         self._space, self._rate = space, rate
         self._step = max(1, round(rate / SAMPLES_HZ))
         self._recent = _Recent(np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0))
+        self._way, self._tissue = Gaps(), Gaps()
+        self._arrived = False
+        self.way_read = self.tissue_read = True  # no readings were missing before the arrival; anywhere in the tissue
+        self._standstills: list[tuple[float, bool]] = []  # that have ended
+        self._standstill = (0.0, True)  # at the last tick
+        self.left = 0  # how often the needle left the space and came back
+        self._stayed, self._out = np.nan, False  # s, at the last tick, NaN outside; it has left since
         self._parts: list[Samples] = []
         self.pushes: list[Push] = []  # one a pop
         self.nearest = -np.inf  # m, the largest distance of the point behind the membrane before the space
@@ -97,13 +102,46 @@ class Trajectory:
         late = self._recent.time > self._recent.time[-1] - BEFORE_S - TICK_S
         self._recent = _Recent(*(column[late] for column in self._recent))
         rows = ticks.tick % self._step == 0
-        in_space = ticks.in_space[rows, int(self._space.stay_whole)]
-        self._parts.append(
-            Samples(
-                ticks.time[rows], ticks.tip[rows], ticks.inside[rows].any(axis=1), in_space, ticks.age[rows] > LATE_S
-            )
-        )
+        kind = int(self._space.stay_whole)
+        stay = np.where(ticks.in_space[:, kind], ticks.stay[:, kind], np.nan)
+        self._parts.append(Samples(ticks.own[rows], ticks.tip[rows], stay[rows]))
+        self._read(ticks)
+        self._pause(ticks)
+        self._leave(ticks, stay)
         self._depths(ticks)
+
+    def _read(self, ticks: JudgedTicks) -> None:
+        inside, seen = ticks.in_tissue, ticks.placed
+        arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
+        self._arrived = bool(arrived[-1])
+        self.way_read &= not self._way.add(ticks, seen, inside & ~arrived).any()
+        self.tissue_read &= not self._tissue.add(ticks, seen, inside).any()
+
+    def _pause(self, ticks: JudgedTicks) -> None:
+        ends = np.flatnonzero(np.concatenate([[self._standstill[0]], ticks.still[:-1]]) * (ticks.still == 0)).tolist()
+        for row in ends:
+            self._standstills.append(self._standstill if row == 0 else self._standing(ticks, row - 1))
+        self._standstill = self._standing(ticks, len(ticks) - 1)
+
+    @staticmethod
+    def _standing(ticks: JudgedTicks, row: int) -> tuple[float, bool]:
+        return float(ticks.still[row]), not (ticks.silent[row] or ticks.slowed[row])
+
+    @property
+    def standstills(self) -> list[tuple[float, bool]]:
+        """Each time that the needle stood still on the way: how long, s, and whether it was certainly the student's."""
+        return [one for one in (*self._standstills, self._standstill) if one[0] > 0]
+
+    def _leave(self, ticks: JudgedTicks, stay: Numbers) -> None:
+        here = np.isfinite(stay)
+        before = np.concatenate([[np.isfinite(self._stayed)], here[:-1]])
+        for row in np.flatnonzero(before != here).tolist():
+            if here[row]:
+                self.left, self._out = self.left + self._out, False
+            else:
+                stayed = self._stayed if row == 0 else float(stay[row - 1])
+                self._out |= stayed >= SHORT_STAY_S and bool(ticks.age[row] <= GONE_S)  # the page has not lost it
+        self._stayed = float(stay[-1])
 
     def _push(self, until: float, membrane: int) -> Push:
         time, tip, held, force = self._recent
@@ -143,8 +181,7 @@ class Trajectory:
     @property
     def samples(self) -> Samples:
         if not self._parts:
-            no = np.zeros(0, np.bool_)
-            return Samples(np.zeros(0), np.zeros((0, 3)), no, no, no)
+            return Samples(np.zeros(0), np.zeros((0, 3)), np.zeros(0))
         whole = Samples(*(np.concatenate(columns) for columns in zip(*self._parts, strict=True)))
         self._parts = [whole]
         return whole
@@ -161,40 +198,22 @@ class Pauses(NamedTuple):
     seconds: float  # together
 
 
-def hold_of(samples: Samples) -> Hold | None:
-    """The longest stay in the space, after the needle has settled; None if it is shorter than HOLD_S."""
-    runs = _runs(samples.in_space & np.isfinite(samples.tip).all(axis=1))
-    if not runs:
+def hold_of(samples: Samples, longest: float) -> Hold | None:
+    """The longest stay in the space, after the needle has settled; None if it is shorter than HOLD_S. longest: its
+    length, s."""
+    ends = np.flatnonzero(np.isfinite(samples.stay) & np.isfinite(samples.tip).all(axis=1))
+    if longest < HOLD_S or len(ends) == 0:
         return None
-    start, end = max(runs, key=lambda run: samples.time[run[1] - 1] - samples.time[run[0]])
-    seconds = float(samples.time[end - 1] - samples.time[start])
-    if seconds < HOLD_S:
+    end = int(ends[samples.stay[ends].argmax()])
+    since = samples.time - samples.stay  # the same in all of a stay
+    rows = (np.abs(since - since[end]) < TICK_S) & np.isfinite(samples.tip).all(axis=1)
+    rows &= samples.stay >= HOLD_SETTLE_S
+    time, tip = samples.time[rows], samples.tip[rows]
+    if len(time) < 3:
         return None
-    rows = samples.time[start:end] >= samples.time[start] + HOLD_SETTLE_S
-    time, tip = samples.time[start:end][rows], samples.tip[start:end][rows]
     smooth, rest = _smooth(time, tip)
     away = np.linalg.norm(smooth - smooth[0], axis=1)
-    return Hold(seconds, float(np.sqrt((rest**2).sum(axis=1).mean())), float(away.max()))
-
-
-def stays_of(samples: Samples) -> int:
-    """How often the needle was in the space without a break, for at least a tenth of a second."""
-    return sum(samples.time[end - 1] - samples.time[start] >= 0.1 for start, end in _runs(samples.in_space))
-
-
-def pauses_of(samples: Samples, until: float) -> Pauses:
-    """The pauses in the tissue before the time `until`, s, of the arrival or of the end. A pause in which the
-    page was late is not counted."""
-    rows = (samples.time <= until) & np.isfinite(samples.tip).all(axis=1)
-    time, tip, inside, late = samples.time[rows], samples.tip[rows], samples.inside[rows], samples.late[rows]
-    if len(time) < 3 or time[-1] - time[0] < PAUSE_S:
-        return Pauses(0, 0.0)
-    smooth, _ = _smooth(time, tip)
-    speed = np.linalg.norm(np.gradient(smooth, time, axis=0), axis=1)
-    still = [run for run in _runs((speed < PAUSE_SPEED) & inside) if not late[slice(*run)].any()]
-    lengths = [float(time[end - 1] - time[start]) for start, end in still]
-    lengths = [length for length in lengths if length >= PAUSE_S]
-    return Pauses(len(lengths), sum(lengths))
+    return Hold(longest, float(np.sqrt((rest**2).sum(axis=1).mean())), float(away.max()))
 
 
 def off_angle(angle: float, seen: Seen) -> Iterator[Remark]:
@@ -219,12 +238,6 @@ def _smooth(time: Numbers, tip: Numbers) -> tuple[Numbers, Numbers]:
     return smooth, (tip - smooth)[inner]
 
 
-def _runs(flags: Flags) -> list[tuple[int, int]]:
-    """The first row of each run of true flags, and the row after its last."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
-    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
-
-
 @dataclass(frozen=True)
 class Seen:
     passed: bool
@@ -243,15 +256,20 @@ class Seen:
     @cached_property
     def hold(self) -> Hold | None:
         """How still the needle was; None without a goal to stay, or without a stay."""
-        return hold_of(self.trajectory.samples) if self.hold_s is not None else None
+        longest = self.metrics.longest_stay
+        return hold_of(self.trajectory.samples, longest) if self.hold_s is not None else None
 
     @cached_property
     def pauses(self) -> Pauses:
-        return pauses_of(self.trajectory.samples, math.inf if self.arrival is None else self.arrival)
+        """Those that are certainly the student's."""
+        lengths = [length for length, own in self.trajectory.standstills if own and length >= PAUSE_S]
+        return Pauses(len(lengths), sum(lengths))
 
-    @cached_property
-    def stays(self) -> int:
-        return stays_of(self.trajectory.samples)
+    @property
+    def steady(self) -> bool:
+        """Whether the needle certainly never stood still on the way."""
+        standstills = self.trajectory.standstills
+        return self.trajectory.way_read and all(own and length < PAUSE_S for length, own in standstills)
 
     def newtons(self, force: float) -> str:
         """A force of the model; "model force" stands beside it if the hand did not get all of it."""

@@ -28,6 +28,7 @@ class JudgedTicks:
 
     tick: NDArray[np.int64]
     time: Numbers  # s
+    own: Numbers  # s, on the needle's own clock: on a simulated device nothing moves while a tick is late
     tip: Numbers  # (n, 3), m
     held: Numbers  # (n, 3), the needle's direction: fixed by the first membrane at entry, else the stylus's
     angle: Numbers  # rad, between it and the first membrane's surface; NaN if unknown
@@ -53,6 +54,11 @@ class JudgedTicks:
     run_on: Numbers  # (n, m), distance of the bevel past the membrane along the needle, m; negative before
     past: Numbers  # (n, m), distance of the point behind the membrane's far face, along its normal, m
     tip_past: Numbers  # (n, m), the same of the bevel's end
+    # On the way: Ways fills them in.
+    aside: Numbers  # m, distance of the point from the line of its last entry; 0 before one, NaN if unknown
+    still: Numbers  # s, how long the needle has stood still in the tissue before the arrival; 0 if it moves
+    silent: Flags  # the page was late in this standstill, so nobody knows whose it is
+    slowed: Flags  # the same of the computer
     # For the point and for the whole tip, (n, 2); Stays fills them in.
     in_space: Flags
     stay: Numbers  # s since it entered the space; 0 outside
@@ -67,6 +73,18 @@ class JudgedTicks:
 
     def __len__(self) -> int:
         return len(self.tick)
+
+    @property
+    def in_tissue(self) -> Flags:
+        """(n,), whether a membrane holds the needle."""
+        flags: Flags = np.logical_or.reduce(self.inside, axis=1)
+        return flags
+
+    @property
+    def placed(self) -> Flags:
+        """(n,), whether the position of the tip is known."""
+        flags: Flags = np.logical_and.reduce(np.isfinite(self.tip), axis=1)
+        return flags
 
     @property
     def point_behind(self) -> Flags:
@@ -88,12 +106,13 @@ _NAMES = [field.name for field in fields(JudgedTicks)]  # computed once: fields(
 class Geometry:
     """The geometry of a scene's membranes."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, simulated: bool = False) -> None:
+        """simulated: the device moves in its ticks only."""
         normals = np.array([placed.inward_normal for placed in scene.membranes], dtype=np.float64)
         self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         self.thickness = np.array([placed.membrane.thickness for placed in scene.membranes], dtype=np.float64)
         self.tip_length = tip_length(scene.needle)
-        self._rate = scene.servo.rate
+        self._rate, self._simulated = scene.servo.rate, simulated
 
     def ticks(self, columns: Columns, first: int = 0) -> JudgedTicks:
         """Converts a batch of snapshots. first: number of its first tick, used if the batch has no `tick`."""
@@ -115,6 +134,7 @@ class Geometry:
         return JudgedTicks(
             tick=tick,
             time=time,
+            own=tick / self._rate if self._simulated else time,
             tip=columns["tip"],
             held=held,
             angle=np.where(known, np.arcsin(np.clip(slope, -1.0, 1.0)), np.nan),
@@ -140,6 +160,10 @@ class Geometry:
             run_on=np.where(inside, depth - self.tip_length - self.thickness / cosine, -np.inf),
             past=below - self.thickness,
             tip_past=below - self.thickness - self.tip_length * cosine,
+            aside=np.zeros(n),
+            still=np.zeros(n),
+            silent=np.zeros(n, dtype=np.bool_),
+            slowed=np.zeros(n, dtype=np.bool_),
             in_space=np.zeros((n, 2), dtype=np.bool_),
             stay=np.zeros((n, 2)),
             dwell=np.zeros((n, 2)),
@@ -220,6 +244,11 @@ def first_of(ticks: JudgedTicks, flags: Flags) -> Moment | None:
 def by(when: Moment | None, until: Moment | None) -> bool:
     """Whether `when` exists and is not after `until`."""
     return when is not None and (until is None or when.tick <= until.tick)
+
+
+def own_time(ticks: JudgedTicks, when: Moment | Event) -> float:
+    """The needle's own time at a moment of these ticks, s."""
+    return float(ticks.own[np.searchsorted(ticks.tick, when.tick)])
 
 
 def contacts(events: list[Event]) -> list[Moment]:

@@ -27,14 +27,14 @@ def not_felt(loss: Loss | PlungerLoss) -> str:
 
 
 def readings_missing(limits: Sequence[LimitJudge]) -> list[str]:
-    """Names all limits that were not measured because the computer missed readings, in one sentence."""
+    """Names all limits that were not measured because readings came late or never, in one sentence."""
     times = [limit.unseen.time for limit in limits if limit.unseen is not None]
     if not times:
         return []
     names = ", ".join(f"“{limit.text}”" for limit in limits)
     return [
-        f"Not measured: {names}. Readings were missing at {tenths(min(times))} s of the run, because the computer was "
-        "too busy: close other programs, and try again."
+        f"Not measured: {names}. Readings were late or missing at {tenths(min(times))} s of the run, because the "
+        "computer was too busy: close other programs, and try again."
     ]
 
 
@@ -65,6 +65,12 @@ def of_page(late: float) -> list[str]:
     """Tells how long the page that moves the hand was silent."""
     text = f"The page was late: for {tenths(late)} s it sent nothing, so the needle stood still."
     return [f"{text} This does not count as a pause."] if late >= 0.5 else []
+
+
+def of_computer(late: float) -> list[str]:
+    """Tells how long the ticks of a simulated device were late."""
+    text = f"The computer was late: for {tenths(late)} s together it computed nothing, so the needle stood still."
+    return [f"{text} This counts neither as a pause nor as time in the space."] if late >= 0.5 else []
 
 
 def of_force(measures: Measures) -> list[str]:

@@ -63,7 +63,7 @@ class Yields:
         """push: N, from which the thumb pushes. rate: of the ticks, Hz. second_device: whether the thumb is on one."""
         self._behind, self._least = space.behind, push
         self._open = self._gave = False  # at the last tick; since the point came out behind the membrane
-        self._load = self._push = self._injected = self._time = np.nan
+        self._load = self._push = self._injected = self._own = np.nan
         self._load_felt = self._push_felt = np.nan
         self._thumb = ThumbSoFar(rate) if second_device else None
 
@@ -80,7 +80,7 @@ class Yields:
         load_felt = np.where(behind, np.where(entry >= 0, feels[entry], self._load_felt), np.nan)
 
         volume = np.diff(ticks.injected, prepend=self._injected)
-        seconds = np.diff(ticks.time, prepend=self._time)
+        seconds = np.diff(ticks.own, prepend=self._own)
         flows = behind & (load >= self._least) & (volume >= FLOW * seconds)
         last = np.maximum.accumulate(np.where(flows, rows, -2))
         before = np.concatenate([[-2], last[:-1]])  # the last flow before this tick
@@ -90,7 +90,7 @@ class Yields:
         self._load, self._push = float(load[-1]), float(ticks.push[-1])
         self._load_felt = float(load_felt[-1])
         self._push_felt = float(felt[-1])
-        self._injected, self._time = float(ticks.injected[-1]), float(ticks.time[-1])
+        self._injected, self._own = float(ticks.injected[-1]), float(ticks.own[-1])
         marked = replace(ticks, load=load, load_felt=load_felt, gave_way=flows & ~gave)
         return self._thumb.mark(marked, entering) if self._thumb else marked
 
@@ -108,6 +108,7 @@ class YieldMeasures:
         self._volumes: list[float] = []  # m^3, that had left the syringe when it gave way
         self._farthest: list[float] = []  # m, how far in the thumb has been since the point came out
         self._least: list[float] = []  # N, of the felt force since it gave way, whatever the thumb did
+        self._own: list[float] = []  # s, when it gave way, on the needle's own clock
         self._seen_to = -np.inf
         self.found: list[Yield] = []
 
@@ -116,6 +117,7 @@ class YieldMeasures:
             self._volumes.append(float(ticks.injected[row]))
             self._farthest.append(float(ticks.farthest[row]))
             self._least.append(np.inf)
+            self._own.append(float(ticks.own[row]))
             time, push = float(ticks.time[row]), float(ticks.load[row])
             loss = self._loss(ticks, row)
             self.found.append(Yield(time=time, push=push, loss=loss, injected=0.0, seconds=self._seconds))
@@ -135,23 +137,19 @@ class YieldMeasures:
     def settle(self, ticks: JudgedTicks) -> None:
         for k, one in enumerate(self.found):
             rows = (ticks.time >= one.time) & np.isfinite(ticks.injected)
-            soon = (
-                rows
-                & (ticks.time <= one.time + THUMB_REACTION_S)
-                & np.isfinite(ticks.push)
-                & np.isfinite(ticks.push_felt)
-            )
-            self.found[k] = one = self._injected(k, one, ticks, rows & (ticks.time <= one.time + one.seconds))
+            since = ticks.own - self._own[k]
+            soon = rows & (since <= THUMB_REACTION_S) & np.isfinite(ticks.push) & np.isfinite(ticks.push_felt)
+            self.found[k] = one = self._injected(k, one, ticks, rows & (since <= one.seconds))
             if one.loss is not None and soon.any():
                 self.found[k] = one.model_copy(update={"loss": self._followed(k, one.loss, ticks, soon)})
         if len(ticks):
-            self._seen_to = float(ticks.time[-1])
+            self._seen_to = float(ticks.own[-1])
 
     def _injected(self, k: int, one: Yield, ticks: JudgedTicks, rows: Flags) -> Yield:
         if not rows.any():
             return one
         injected = float(ticks.injected[rows].max()) - self._volumes[k]
-        late = ticks.push[rows & (ticks.time >= one.time + THUMB_REACTION_S)]
+        late = ticks.push[rows & (ticks.own >= self._own[k] + THUMB_REACTION_S)]
         pushes = [*late[np.isfinite(late)].tolist(), *([] if one.push_after is None else [one.push_after])]
         update = {"injected": max(one.injected, injected), "push_after": max(pushes, default=None)}
         return one.model_copy(update=update)
@@ -179,10 +177,13 @@ class YieldMeasures:
 
     @property
     def ends(self) -> list[float]:
-        """The time at which each measurement ends, s."""
-        return [one.time + max(one.seconds, THUMB_REACTION_S if one.loss else 0.0) for one in self.found]
+        """The time at which each measurement ends, on the needle's own clock, s."""
+        return [
+            own + max(one.seconds, THUMB_REACTION_S if one.loss else 0.0)
+            for own, one in zip(self._own, self.found, strict=True)
+        ]
 
     @property
     def complete(self) -> list[Yield]:
         """Those after which a thumb could have reacted."""
-        return [one for one in self.found if self._seen_to >= one.time + THUMB_REACTION_S]
+        return [one for own, one in zip(self._own, self.found, strict=True) if self._seen_to >= own + THUMB_REACTION_S]

@@ -150,18 +150,20 @@ class ExerciseActivity:
         group: str = "",
         second_device: bool = False,
         heard: Heard | None = None,
+        simulated: bool = False,
     ) -> None:
         """recording: the name of the run's recording. results: where the result is saved. group: a class.
-        second_device: the thumb is on one. heard: when the page that moves the hand was heard."""
+        second_device: the thumb is on one. heard: when the page that moves the hand was heard. simulated: the needle's
+        device is."""
         self._exercise, self._person, self._recording, self._results = exercise, person, recording, results
-        self._group, self._second_device = group, second_device
+        self._group, self._second_device, self._simulated = group, second_device, simulated
         self._heard = heard or Heard()
         self._attempt: Attempt
         self._sent: ExerciseStatus | None = None
         self.end_at: float | None = None
 
     def begin(self, scene: Scene) -> None:
-        self._attempt = Attempt(self._exercise, scene, self._second_device)
+        self._attempt = Attempt(self._exercise, scene, self._second_device, self._simulated)
 
     def ticks(self, ticks: Ticks, now: float) -> list[ExerciseStatus]:
         """Returns the status if it has changed."""

@@ -192,8 +192,10 @@ def _activity(
     request: ask.StartExercise | ask.TryExercise, exercise: Exercise, recording: str, session: Session
 ) -> ExerciseActivity:
     results = session.exercises.drafts if exercise.name == DRAFT else session.results
-    second = session.bench.settings.second is not None
-    return ExerciseActivity(exercise, request.person, recording, results, request.group, second, session.heard)
+    bench = session.bench
+    second = bench.settings.second is not None
+    person, group = request.person, request.group
+    return ExerciseActivity(exercise, person, recording, results, group, second, session.heard, bench.simulated)
 
 
 def _prepare_expert(request: ask.SetExpert, session: Session) -> Job:

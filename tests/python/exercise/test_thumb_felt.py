@@ -173,9 +173,9 @@ def test_the_push_that_is_named_before_the_start_is_no_more_than_what_is_needed(
 def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, monkeypatch, second):
     devices = []
 
-    def attempt(exercise, scene, second_device):
-        devices.append(second_device)
-        return Attempt(exercise, scene, second_device)
+    def attempt(exercise, scene, second_device, simulated):
+        devices.append((second_device, simulated))
+        return Attempt(exercise, scene, second_device, simulated)
 
     monkeypatch.setattr(sys.modules["punctura.exercise.load"], "Attempt", attempt)
     device = SimulatedDevice(Target([0, 6e-3, 0]))
@@ -185,7 +185,7 @@ def test_a_recording_says_whether_the_thumb_was_on_a_second_device(tmp_path, mon
         loop.start()
         wait_until(lambda: len(loop.latest()))
         loop.stop()
-    assert not score(file, EXERCISE).passed and devices == [second]
+    assert not score(file, EXERCISE).passed and devices == [(second, True)]
 
 
 def test_exercises_without_the_plunger_say_nothing_about_the_thumb():

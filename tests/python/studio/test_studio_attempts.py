@@ -90,7 +90,7 @@ def result(person):
     metrics = dict.fromkeys(Metrics.model_fields) | {
         "entries": 1, "peak_force": 0.9, "peak_felt_force": 0.9, "force_scale": 1.0, "losses": [], "yields": [],
         "overshoot": [], "dwell": 0.0, "longest_stay": 0.0, "total_time": 2.0, "lost_ticks": 0, "force_cut": {},
-        "page_late": 0.0, "force_off": 0.0,
+        "page_late": 0.0, "computer_late": 0.0, "force_off": 0.0,
     }  # fmt: skip
     return Result(
         exercise="venipuncture", title="Venipuncture", scene="Venipuncture", person=person,

@@ -169,9 +169,9 @@ def test_the_depth_of_the_reach_goal_is_listed(tmp_path):
 def test_the_list_and_the_judge_know_whether_the_thumb_is_on_a_second_device(tmp_path, monkeypatch, second, told):
     attempts = []
 
-    def attempt(exercise, scene, second_device):
-        attempts.append(second_device)
-        return Attempt(exercise, scene, second_device)
+    def attempt(exercise, scene, second_device, simulated):
+        attempts.append((second_device, simulated))
+        return Attempt(exercise, scene, second_device, simulated)
 
     monkeypatch.setattr(activities, "Attempt", attempt)
     server = serve(tmp_path, "epidural", Settings(second=second))
@@ -182,6 +182,6 @@ def test_the_list_and_the_judge_know_whether_the_thumb_is_on_a_second_device(tmp
         assert (unfelt or note).startswith(told) and bool(note) == (second is None) and not (unfelt and note)
         assert set(said.values()) == {("", "")}
         assert page.ask(do="start_exercise", exercise="epidural-plunger")["ok"]
-        assert attempts == [second is not None]
+        assert attempts == [(second is not None, True)]
         assert page.ask(do="end_exercise")["ok"]
     server.stop()

@@ -9,7 +9,7 @@ from punctura import Scene
 from punctura.errors import Problem
 from punctura.events import Event
 from punctura.exercise.fields import Space, Start, Word
-from punctura.exercise.motion import MOST_GAP_S
+from punctura.exercise.motion import Gaps
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import Seen
 from punctura.exercise.ticks import Flags, JudgedTicks, Moment, TargetSpace, by, first_of
@@ -53,15 +53,16 @@ class LimitJudge(Judge):
     time_limit: float | None = None  # s from the first contact
     overshoot: tuple[int, float] | None = None  # a membrane, and the time after its pop in which it is measured, s
     after_yield: float | None = None  # s after the plunger gives way in which the injected volume is measured
+    subjects: tuple[str, ...] = ()  # what the coach praises only if this goal was kept, as in Remark.about
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self.missed: Moment | None = None
-        self.unseen: Moment | None = None  # when needed readings had been missing for too long
+        self.unseen: Moment | None = None  # when needed readings had been missing, or late, for too long
         self.gone: Moment | None = None  # when a needed hand was that of a page that had been silent for too long
         self.busy: Flags | None = None  # the ticks of the batch in which a measurement is open
         self.waits_for = ""  # the end of an open measurement at the last tick: "pop", "rest" or "thumb"
-        self._seen_at: float | None = None
+        self._gaps = Gaps()
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         """Takes the next ticks of the attempt and their events."""
@@ -103,15 +104,13 @@ class LimitJudge(Judge):
         if self.missed is None:
             self.missed = first_of(ticks, flags)
 
-    def _watch(self, ticks: JudgedTicks, seen: Flags) -> None:
-        """Notes missing readings. seen: the ticks that have a reading."""
-        if self.unseen is not None:
-            return
-        times = np.where(seen, ticks.time, -np.inf)
-        began = float(ticks.time[0]) if self._seen_at is None else self._seen_at
-        before = np.maximum.accumulate(np.concatenate([[began], times[:-1]]))
-        self.unseen = first_of(ticks, ticks.time - before > MOST_GAP_S)
-        self._seen_at = float(max(before[-1], times[-1]))
+    def _watch(self, ticks: JudgedTicks, seen: Flags, matters: Flags) -> None:
+        """Notes missing readings. seen: a tick has a reading. matters: it can change what is judged."""
+        self._lack(ticks, self._gaps.add(ticks, seen, matters))
+
+    def _lack(self, ticks: JudgedTicks, flags: Flags) -> None:
+        if self.unseen is None:
+            self.unseen = first_of(ticks, flags)
 
 
 class BegunJudge(LimitJudge):

@@ -11,16 +11,25 @@ import numpy as np
 from punctura.events import Event
 from punctura.exercise.fields import Angle, Newtons, Seconds, Speed, Tolerance, asked
 from punctura.exercise.goals.goal import BegunJudge, Course, Goal, LimitJudge, SoFar
-from punctura.exercise.motion import PAUSE_SPEED, MeanSpeed
+from punctura.exercise.motion import MeanSpeed
 from punctura.exercise.quantities import degrees, speed
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import STEADILY, Seen, off_angle
-from punctura.exercise.ticks import GONE_S, LATE_S, JudgedTicks, Moment, Numbers, TargetSpace, contacts, first_of
+from punctura.exercise.ticks import (
+    GONE_S,
+    LATE_S,
+    JudgedTicks,
+    Moment,
+    Numbers,
+    TargetSpace,
+    contacts,
+    first_of,
+    own_time,
+)
 
 ROUNDING_RAD = 1e-9
 UPRIGHT_RAD = math.radians(3)  # a needle that leans less has no heading
 SPEED_MEAN_S = 0.1  # over which a speed is measured: a period of tremor, or nearly
-PAUSE_MEAN_S = 0.25  # over which a speed is measured: longer than a period of tremor
 
 
 class EntryAngle(Goal):
@@ -42,6 +51,8 @@ class EntryAngle(Goal):
 
 class AngleJudge(BegunJudge):
     """Judges each entry into the first membrane."""
+
+    subjects = ("angle",)
 
     def __init__(self, goal: EntryAngle, asked_deg: float, course: Course) -> None:
         first = course.scene.membranes[0]
@@ -109,7 +120,7 @@ class SpeedJudge(LimitJudge):
         self._speed = MeanSpeed(SPEED_MEAN_S)
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.tip.sum(axis=1)))
+        self._watch(ticks, ticks.placed, ticks.in_tissue)
         moved, _ = self._speed.add(ticks)
         self._miss(ticks, np.einsum("ij,ij->i", moved, ticks.held) > self.at_most)
 
@@ -134,38 +145,26 @@ class NoPause(Goal):
 
 class PauseJudge(LimitJudge):
     """Judges the way from first contact to arrival. While the page is late nobody pauses; after more than 1 s of it,
-    and if it was late during a pause, nobody knows whether the student stood still."""
+    and if page or computer were late during a pause, nobody knows whether the student stood still."""
+
+    subjects = ("pauses",)
 
     def __init__(self, goal: NoPause, space: TargetSpace) -> None:
         super().__init__(goal.text or f"Do not stand still for {goal.seconds:g} s on the way to {space.name}")
         self.seconds = goal.seconds
-        self._space, self._speed = space, MeanSpeed(PAUSE_MEAN_S)
-        self._arrived = False
-        self._still = 0.0  # s, of the present pause without the time in which the page was late
-        self._excused = False  # the page was late in the present pause
-        self._before: float | None = None  # time of the last tick
+        self._space, self._arrived = space, False
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.tip.sum(axis=1)))
-        moved, known = self._speed.add(ticks)
         arrived = self._arrived | np.logical_or.accumulate(self._space.arrived(ticks))
         self._arrived = bool(arrived[-1])
-        on_the_way = known & ~arrived
-        slow = on_the_way & (np.linalg.norm(moved, axis=1) < PAUSE_SPEED)
-        late = ticks.age > LATE_S
-        step = np.diff(ticks.time, prepend=ticks.time[0] if self._before is None else self._before)
-        self._before = float(ticks.time[-1])
-        total = self._still + np.cumsum(np.where(slow & ~late, step, 0.0))
-        since = np.maximum.accumulate(np.where(slow, 0.0, total))  # what was counted before the present pause
-        self._still = float(total[-1] - since[-1])
-        rows = np.arange(len(ticks))
-        moving = np.maximum.accumulate(np.where(slow, -2, rows))
-        excused = np.maximum.accumulate(np.where(slow & late, rows, -1 if self._excused else -3)) > moving
-        self._excused = bool(excused[-1])
-        long = slow & ~late & (total - since >= self.seconds - PAUSE_MEAN_S)
+        on_the_way = ticks.in_tissue & ~arrived
+        self._watch(ticks, ticks.placed, on_the_way)
+        long = ticks.still >= self.seconds
         if self.gone is None:
-            self.gone = first_of(ticks, (on_the_way & (ticks.age > GONE_S)) | (long & excused))
-        self._miss(ticks, long & ~excused)
+            silent = long & ticks.silent & (ticks.age <= LATE_S)
+            self.gone = first_of(ticks, on_the_way & (ticks.age > GONE_S) | silent)
+        self._lack(ticks, long & ticks.slowed)
+        self._miss(ticks, long & ~ticks.silent & ~ticks.slowed)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"You stood still for {self.seconds:g} s before you reached {space.name}."
@@ -191,7 +190,7 @@ class ForceJudge(LimitJudge):
         self.at_most = goal.at_most_N
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.force))
+        self._watch(ticks, np.isfinite(ticks.force), ticks.in_tissue)
         self._miss(ticks, ticks.force > self.at_most)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
@@ -223,16 +222,21 @@ class TimeLimit(Goal):
 
 
 class TimeJudge(BegunJudge):
-    """Uses the ticks' own times, so lost ticks do not stop the time."""
+    """Uses the times of the ticks, so lost ticks do not stop the time. The time in which the computer was late is
+    nobody's: with it the time may be over, and the goal is not measured."""
 
     def __init__(self, goal: TimeLimit) -> None:
         super().__init__(goal.text or f"Finish within {goal.seconds:g} s of the first contact")
         self.time_limit: float = goal.seconds
+        self._own = 0.0  # s, of the first contact, on the needle's own clock
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self.began = self.began or next(iter(contacts(events)), None)
+        touch = next(iter(contacts(events)), None)
+        if self.began is None and touch is not None:
+            self.began, self._own = touch, own_time(ticks, touch)
         if self.began is not None:
-            self._miss(ticks, ticks.time - self.began.time > self.time_limit)
+            self._miss(ticks, ticks.own - self._own > self.time_limit)
+            self._lack(ticks, ticks.time - self.began.time > self.time_limit)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"The time ran out {self.time_limit:g} s after the first contact."

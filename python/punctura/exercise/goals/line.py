@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Annotated, Literal
 
 import numpy as np
@@ -85,7 +84,7 @@ class LineJudge(BegunJudge):
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         self._points(ticks)
         aside = np.abs((ticks.tip - self._point) @ self._across)
-        self._watch(ticks, np.isfinite(aside))
+        self._watch(ticks, np.isfinite(aside), ticks.in_space[:, 0])
         here = ticks.in_space[:, 0] & np.isfinite(aside)
         if self.missed is not None or not here.any():
             return
@@ -145,27 +144,17 @@ class Straight(Goal):
 class StraightJudge(BegunJudge):
     """Judges each way in the tissue: its line is the needle's as it touches the first membrane."""
 
+    subjects = ("aside",)
+
     def __init__(self, goal: Straight) -> None:
         super().__init__(goal.text or f"Stay within {goal.within_mm:g} mm of the line of entry")
         self.within = goal.within_mm * 1e-3
-        self._entry: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # point, m, and direction
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        touches = contacts(events)
-        self.began = self.began or next(iter(touches), None)
-        aside = np.zeros(len(ticks))
-        cuts = [int(row) for row in np.searchsorted(ticks.tick, [touch.tick for touch in touches])]
-        for k, (start, stop) in enumerate(pairwise([0, *cuts, len(ticks)])):
-            if k:
-                self._entry = ticks.tip[start], ticks.held[start]
-                if not np.isfinite(ticks.angle[start]):  # then `held` is only the first membrane's normal
-                    self.unseen = self.unseen or touches[k - 1]
-            if self._entry is not None:
-                offset = ticks.tip[start:stop] - self._entry[0]
-                aside[start:stop] = np.linalg.norm(np.cross(offset, self._entry[1]), axis=1)
-        self._watch(ticks, np.isfinite(aside))
-        if self.unseen is None:
-            self._miss(ticks, ticks.inside.any(axis=1) & (aside > self.within))
+        self.began = self.began or next(iter(contacts(events)), None)
+        inside = ticks.in_tissue
+        self._watch(ticks, np.isfinite(ticks.aside), inside)
+        self._miss(ticks, inside & (ticks.aside > self.within))
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
         return f"The tip went more than {mm(self.within)} to the side of its line of entry."

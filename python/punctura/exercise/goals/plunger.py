@@ -125,23 +125,29 @@ class PlungerJudge(WindowJudge):
         self.within, self.seconds = goal.within_mL * 1e-6, goal.seconds
         self.after_yield = goal.seconds
         self.gave_way = False
-        self._until, self._from = -np.inf, np.nan  # end of the last window, s; volume at its start, m^3
+        self._until = self._own_until = -np.inf  # end of the last window, s; the same on the needle's own clock
+        self._from = np.nan  # m^3, volume at the start of the last window
         self._pushes = False  # whether the thumb pushes in the last tick
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.injected))
         cuts = np.flatnonzero(ticks.gave_way).tolist()
         window = np.zeros(len(ticks), dtype=np.bool_)
         for k, (start, end) in enumerate(itertools.pairwise([0, *cuts, len(ticks)])):
             if k:
                 self.gave_way = True
-                self._until, self._from = float(ticks.time[start]) + self.seconds, float(ticks.injected[start])
+                self._until, self._own_until = (float(clock[start]) + self.seconds for clock in (ticks.time, ticks.own))
+                self._from = float(ticks.injected[start])
             part = ticks.part(slice(start, end))
-            window[start:end] = part.time <= self._until
-            self._miss(part, (part.injected - self._from > self.within) & window[start:end])
+            window[start:end] = part.own <= self._own_until
+            too_much = part.injected - self._from > self.within
+            self._miss(part, too_much & (part.time <= self._until))
+            self._lack(part, too_much & window[start:end])  # a late computer let it flow only now
             if self.met is None and self.gave_way:
                 self.met = first_of(part, ~window[start:end])
         self.busy = window
+        # Before it gives way, the first tick of its flow may be missing.
+        matters: Flags = window if self.gave_way else ticks.in_tissue
+        self._watch(ticks, np.isfinite(ticks.injected), matters)
         self.waits_for = "thumb" if window[-1] else ""
         self._pushes = bool(ticks.push[-1] > RESTING_N)
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
+
+import numpy as np
 
 from punctura.exercise.fields import Distance, Seconds, asked
 from punctura.exercise.goals.goal import Achievement, Course, Goal, SoFar
@@ -59,12 +62,17 @@ class StayJudge(Achievement):
         super().__init__(goal.text or f"{what} {space.name} for {goal.seconds:g} s")
         self.seconds, self.whole_tip = goal.seconds, goal.whole_tip
         self.staying = False  # in the last tick
+        self._stay, self._cut = 0.0, np.nan  # s, of the last tick; when missing readings ended a stay
 
     def add(self, ticks: JudgedTicks, busy: Flags) -> None:
-        here = ticks.in_space[:, int(self.whole_tip)]
-        self.staying = bool(here[-1])
-        self.held = min(self.seconds, float(ticks.stay[-1, int(self.whole_tip)]))
-        self._follow(ticks, here & (ticks.stay[:, int(self.whole_tip)] >= self.seconds), here, busy)
+        here, stay = ticks.in_space[:, int(self.whole_tip)], ticks.stay[:, int(self.whole_tip)]
+        stayed = np.concatenate([[self.staying], here[:-1]])
+        anew = here & stayed & (stay < np.concatenate([[self._stay], stay[:-1]]))
+        if anew.any():
+            self._cut = float(ticks.time[anew][-1])
+        self.staying, self._stay = bool(here[-1]), float(stay[-1])
+        self.held = min(self.seconds, self._stay)
+        self._follow(ticks, here & (stay >= self.seconds), here, busy)
 
     def instruction(self, arrived: bool, first: str, pop: str) -> str:
         if self.staying:
@@ -77,4 +85,7 @@ class StayJudge(Achievement):
             return super().why_open(so_far, space)
         if self.whole_tip and so_far.longest_stay == 0:
             return f"The whole tip was never in {space.name}."
-        return f"You stayed in {space.name} for {tenths(so_far.longest_stay)} s; the goal is {self.seconds:g} s."
+        told = f"You stayed in {space.name} for {tenths(so_far.longest_stay)} s; the goal is {self.seconds:g} s."
+        if math.isnan(self._cut):
+            return told
+        return f"{told} Readings were missing at {tenths(self._cut)} s of the run: there this time began anew."

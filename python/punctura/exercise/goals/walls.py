@@ -14,7 +14,7 @@ from punctura.errors import MISSING, Problem
 from punctura.events import Event
 from punctura.exercise.fields import MOST_ENTRIES, Distance, Seconds, Word, asked
 from punctura.exercise.goals.goal import Course, Given, Goal, LimitJudge, SoFar, WindowJudge
-from punctura.exercise.quantities import mm, speed, tenths, times
+from punctura.exercise.quantities import mm, more, speed, tenths, times
 from punctura.exercise.result import Remark
 from punctura.exercise.seen import FIRM_STOP, NEAR_STOP, REACTION_S, Seen
 from punctura.exercise.ticks import (
@@ -26,6 +26,7 @@ from punctura.exercise.ticks import (
     TargetSpace,
     contacts,
     first_of,
+    own_time,
     place_of,
 )
 
@@ -51,7 +52,7 @@ class NeverPassJudge(LimitJudge):
         self._index = place_of(scene, goal.membrane)
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.past[:, self._index]))
+        self._watch(ticks, np.isfinite(ticks.past[:, self._index]), ticks.inside[:, self._index])
         behind = ticks.tip_behind if self._whole else ticks.point_behind
         self._miss(ticks, behind[:, self._index])
 
@@ -106,7 +107,7 @@ class StopJudge(WindowJudge):
         self.membrane, self.within, self.seconds = goal.membrane, goal.within_mm * 1e-3, goal.seconds
         self.index = place_of(scene, goal.membrane)
         self.overshoot = (self.index, self.seconds)
-        self._until = -np.inf  # the end of the last window, s
+        self._until = self._own_until = -np.inf  # the end of the last window, s; the same on the needle's own clock
         self._popped = False  # since the tip went in
 
     @property
@@ -116,23 +117,26 @@ class StopJudge(WindowJudge):
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         i = self.index
-        self._watch(ticks, np.isfinite(ticks.depth[:, i]))
         pops = [event for event in events if event.what == "pop" and event.membrane == i]
         cuts = np.searchsorted(ticks.tick, [event.tick for event in pops]).tolist()
         window = np.zeros(len(ticks), dtype=np.bool_)
         for k, (start, end) in enumerate(itertools.pairwise([0, *cuts, len(ticks)])):
             if k:
                 self._until = pops[k - 1].time + self.seconds
+                self._own_until = own_time(ticks, pops[k - 1]) + self.seconds
             part = ticks.part(slice(start, end))
-            self._miss(part, (part.run_on[:, i] > self.within) & (part.time <= self._until))
+            too_far, own = part.run_on[:, i] > self.within, part.own <= self._own_until
+            self._miss(part, too_far & (part.time <= self._until))
+            self._lack(part, too_far & own)  # a needle that a late computer has let go on only now
             # Open until the page is heard again: a hand that it holds does not stop.
-            window[start:end] = part.time - part.age <= self._until
+            window[start:end] = (part.time - part.age <= self._until) | own
             if self.gone is None:
                 self.gone = first_of(part, window[start:end] & (part.age > GONE_S))
             if self.met is None and self.popped:
                 self.met = first_of(part, ~window[start:end])
         held = ticks.inside[:, i] & ~self._popped_since_entry(ticks, cuts)
         self.busy = window | held
+        self._watch(ticks, np.isfinite(ticks.depth[:, i]), self.busy)
         self.waits_for = "rest" if window[-1] else "pop" if held[-1] else ""
 
     def _popped_since_entry(self, ticks: JudgedTicks, pops: list[int]) -> Flags:
@@ -168,7 +172,7 @@ class StopJudge(WindowJudge):
         for push, one in seen.stops(self.index):
             if one.distance <= self.within:
                 continue
-            too_far = f"when the {self.membrane} gave way, and went {mm(one.distance - self.within)} too far"
+            too_far = f"when the {self.membrane} gave way, and went {more(one.distance - self.within)} too far"
             # A moving hand goes on until it reacts. A hand that pushes without moving fast is let go by the wall.
             if push.speed * REACTION_S >= one.distance / 2:
                 text = f"You moved at {speed(push.speed)} {too_far}: push more slowly when the resistance grows."
@@ -227,7 +231,7 @@ class DepthJudge(LimitJudge):
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
         past = ticks.past[:, self._index]
-        self._watch(ticks, np.isfinite(past))
+        self._watch(ticks, np.isfinite(past), ticks.inside[:, self._index])
         self._miss(ticks, past > self.at_most + ROUNDING)
 
     def why_missed(self, when: Moment, so_far: SoFar, space: TargetSpace) -> str:
@@ -260,7 +264,7 @@ class EntriesJudge(LimitJudge):
         self._count = 0
 
     def add(self, ticks: JudgedTicks, events: list[Event]) -> None:
-        self._watch(ticks, np.isfinite(ticks.depth[:, 0]))
+        self._watch(ticks, np.isfinite(ticks.depth[:, 0]), ~ticks.inside[:, 0])
         for when in contacts(events):
             self._count += 1
             if self._count > self.at_most and self.missed is None:

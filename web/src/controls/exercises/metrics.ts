@@ -77,7 +77,7 @@ export function metricRows(metrics: Metrics): MetricRow[] {
     {
       label: "Lateral deviation",
       value: millimetres(metrics.lateral_deviation),
-      help: "Largest distance from the line of entry.",
+      help: "Largest distance from the line of entry, in the tissue.",
     },
     {
       label: "Angle of entry",

@@ -164,11 +164,7 @@ function drawMarks(pen: Pen, depth: Pane, force: Pane, result: Result, touch: nu
   const rows = [
     [
       ...(arrival === null ? [] : [{ time: arrival, text: "arrived", colour: green }]),
-      ...(total <= 0
-        ? []
-        : result.passed
-          ? [{ time: total, text: "✓ done", colour: green }]
-          : [{ time: total, text: "✕ lost", colour: theme.danger }]),
+      ...(total <= 0 ? [] : [{ time: total, text: endWord(result), colour: result.passed ? green : theme.danger }]),
     ],
     pops.map(({ time }, i) => ({ time: time - touch, text: `pop ${i + 1}`, colour: orange, dash: [3, 3] })),
   ];
@@ -178,13 +174,20 @@ function drawMarks(pen: Pen, depth: Pane, force: Pane, result: Result, touch: nu
       text,
       weight: i,
     }));
-    const fits = labelsThatFit(labels, depth.left, depth.right + textWidth("✓ done") + MARGIN.right);
+    const fits = labelsThatFit(labels, depth.left, depth.right + textWidth("◐ not judged") + MARGIN.right);
     marks.forEach(({ time, text, colour, ...look }, i) => {
       const x = depth.x.px(time);
       pen.segment(x, depth.top - 3, x, force.bottom, { colour, width: 1, ...look });
       if (fits[i]) pen.text(labels[i]!.x, 8 + 13 * row, text, { colour, bold: true });
     });
   });
+}
+
+/** The end of the drawing says what the verdict says. */
+export function endWord({ passed, withheld, goals }: Pick<Result, "passed" | "withheld" | "goals">): string {
+  if (passed) return "✓ done";
+  if (withheld) return "◐ not judged";
+  return goals.some(({ state }) => state === "missed") ? "✕ missed" : "ended";
 }
 
 function extreme(values: Float64Array, from: number, to: number, of: (a: number, b: number) => number): number {

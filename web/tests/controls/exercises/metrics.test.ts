@@ -22,6 +22,7 @@ const metrics: Metrics = {
   lost_ticks: 0,
   force_cut: {},
   page_late: 0,
+  computer_late: 0,
   force_off: 0,
 };
 

@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import { judgedBy } from "../../../src/controls/exercises/expert.ts";
 import { tracePath } from "../../../src/controls/exercises/result_dialog.ts";
 import { indexAt, layersOf, spaceOf, traceOf } from "../../../src/controls/exercises/trace.ts";
+import { endWord } from "../../../src/controls/exercises/trace_drawing.ts";
 import type { SceneView } from "../../../src/wire/messages.ts";
 import json from "../support/scene.json";
 
@@ -26,6 +27,14 @@ test("the thinned trace is asked for, not all ticks, from a little before the fi
   const touch = { what: "touch", time: 3.25 } as never;
   expect(tracePath({ recording: "a b", events: [touch] })).toBe("/api/recordings/a%20b/trace?from=2.750");
   expect(tracePath({ recording: "x", events: [] })).toBe("/api/recordings/x/trace?from=0.000");
+});
+
+test("the drawing ends with the word of the verdict", () => {
+  const [kept, missed] = [{ text: "", state: "not measured" } as const, { text: "", state: "missed" } as const];
+  expect(endWord({ passed: true, withheld: "", goals: [] })).toBe("✓ done");
+  expect(endWord({ passed: false, withheld: "not everything was measured", goals: [kept] })).toBe("◐ not judged");
+  expect(endWord({ passed: false, withheld: "", goals: [missed] })).toBe("✕ missed");
+  expect(endWord({ passed: false, withheld: "", goals: [kept] })).toBe("ended");
 });
 
 test("the depth of an exercise is asked for as it is judged", () => {
