@@ -30,7 +30,16 @@ from punctura.perception.analysis import (
 )
 from punctura.perception.course import Line, counted
 from punctura.perception.protocol import Protocol
-from punctura.perception.session import TABLES, Header, SessionError, check_header, check_lines, read_session, sessions
+from punctura.perception.session import (
+    TABLES,
+    Header,
+    SessionError,
+    check_header,
+    check_recordings,
+    read_session,
+    replayed,
+    sessions,
+)
 from punctura.ticks.files import save
 
 if TYPE_CHECKING:
@@ -90,14 +99,15 @@ _OF_FELT = {"drop_N": "drop", "peak_N": "peak", "roughness_N": "roughness", "spe
 def write_report(protocol: Protocol, folder: Path) -> Analysis:
     """Analyses all sessions of a folder; writes the report, its picture, results.json and the tables beside them.
 
-    Raises SessionError if there is none, or one of another protocol.
+    Raises SessionError if there is none, or one of another protocol, or one that was changed by hand.
     """
     found, rows, headers = {}, list[dict[str, object]](), dict[str, Header]()
     for path in sessions(folder):
         header, lines = read_session(path)
         if header:
             check_header(header, protocol, path)
-            check_lines(lines, protocol, path)
+            replayed(protocol, header, lines, path)
+            check_recordings(header, lines, folder)
             found[path.stem], headers[path.stem] = lines, header
             rows += [_row(protocol, header, line) for line in lines]
     if not found:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import re
@@ -12,14 +13,17 @@ from pathlib import Path
 from pydantic import BaseModel, NonNegativeInt, ValidationError
 
 from punctura import PuncturaError, __version__
+from punctura.errors import Problem
 from punctura.files.whole_file import private, private_folder, sync
 from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol
 from punctura.perception.stimulus import Felt
+from punctura.record import RecordingError, open_recording
 from punctura.record.new_file import in_use, lock
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
+MOST_TOLD = 5  # differences of a file from the planned session
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
 WRITTEN = ("report.md", "report.html", "functions.svg", "results.json", *TABLES)  # by the analysis
 
@@ -117,9 +121,7 @@ class Session:
             check_header(header, protocol, self.path)
             if header.device not in ("", device):
                 raise SessionError(f"{self.path} began on {header.device}, and this is {device}: choose with --device")
-            self.header, self.course = header, Course(protocol, header.number)
-            for line in lines:
-                self._repeat(line)
+            self.header, self.course = header, replayed(protocol, header, lines, self.path)
         except BaseException:
             os.close(self._descriptor)
             raise
@@ -161,15 +163,6 @@ class Session:
                 raise DiskFullError(f"{self.path}: the disk is full, and this answer is not saved") from None
             raise
 
-    def _repeat(self, line: Line) -> None:
-        trial = self.course.next()
-        if trial is None or line_of(trial, line.answer, line.felt, line.recordings, line.time) != line:
-            raise SessionError(
-                f"{self.path}: trial {line.trial} is not the one that this version of Punctura would show; the "
-                f"session began with {self.header.version}: go on with that version"
-            )
-        self.course.add(trial, line.answer)
-
 
 def check_header(header: Header, protocol: Protocol, path: Path) -> None:
     """Raises SessionError if a session is not one of this protocol."""
@@ -183,13 +176,48 @@ def check_header(header: Header, protocol: Protocol, path: Path) -> None:
         raise SessionError(f"{path} is the session of {header.participant}: give the file its old name")
 
 
-def check_lines(lines: Sequence[Line], protocol: Protocol, path: Path) -> None:
-    """Raises SessionError if a trial is none of the protocol: the file was changed by hand."""
-    shown = {*protocol.levels, *([protocol.catch.level] if protocol.catch else [])}
-    for number, line in enumerate(lines):
-        fits = line.position < protocol.intervals == len(line.felt) and protocol.takes(line.answer)
-        if line.trial != number or line.level not in shown or not fits:
-            raise _no_line(path, number + 2)
+def replayed(protocol: Protocol, header: Header, lines: Sequence[Line], path: Path) -> Course:
+    """The course after these trials. Raises SessionError with each value that is not the planned one."""
+    course, wrong = Course(protocol, header.number), list[Problem]()
+    for number, line in enumerate(lines, 2):
+        trial, where = course.next(), f"line {number}"
+        if trial is None:
+            wrong.append(Problem(where, line.trial, "is after the last trial"))
+            break
+        planned = line_of(trial, line.answer, line.felt)
+        for key in ("trial", "block", "kind", "level", "position"):
+            if (found := getattr(line, key)) != (wanted := getattr(planned, key)):
+                wrong.append(Problem(f"{where}: {key}", found, f"planned is {wanted!r}"))
+        if len(line.felt) != protocol.intervals:
+            wrong.append(Problem(f"{where}: felt", len(line.felt), f"intervals, and a trial has {protocol.intervals}"))
+        own = re.compile(rf"{re.escape(header.participant)}-{trial.number:04d}-\d+\.parquet")
+        others = [name for name in line.recordings if not own.fullmatch(name)]
+        wrong += [Problem(f"{where}: recordings", name, "is the name of another trial's") for name in others]
+        if not protocol.takes(line.answer):  # the order of the rest depends on it
+            wrong.append(Problem(f"{where}: answer", line.answer, f"is no answer of {protocol.file.task}"))
+            break
+        course.add(trial, line.answer)
+    if wrong:
+        told = "".join(f"\n  {problem}" for problem in wrong[:MOST_TOLD])
+        more = f"\n  and {len(wrong) - MOST_TOLD} more" * (len(wrong) > MOST_TOLD)
+        remedy = "It was changed by hand: restore it from a copy"
+        if header.version != __version__:
+            remedy = f"Use Punctura {header.version}, which began it, or restore it from a copy"
+        raise SessionError(f"{path} is not what seed, participant's number and answers give:{told}{more}\n{remedy}")
+    return course
+
+
+def check_recordings(header: Header, lines: Sequence[Line], folder: Path) -> None:
+    """Raises SessionError if a recording is one of another trial. A missing or a damaged one is none of another."""
+    for line in lines:
+        for file in (folder / name for name in line.recordings):
+            with contextlib.suppress(RecordingError):
+                about = open_recording(file).info.about
+                if (found := (about.get("participant"), about.get("trial"))) != (header.participant, line.trial):
+                    raise SessionError(
+                        f"{file} is the recording of trial {found[1]} of {found[0]}, not of trial {line.trial} of "
+                        f"{header.participant}: restore it from a copy"
+                    )
 
 
 def _no_line(path: Path, number: int) -> SessionError:

@@ -104,21 +104,41 @@ def changed(folder: Path, senses: Senses, wrong: Callable[[dict], dict]) -> Path
     return path
 
 
-def test_an_order_that_is_not_this_one_is_not_continued(tmp_path: Path, senses: Senses) -> None:
-    path = changed(tmp_path, senses, lambda line: {"position": 1 - line["position"]})
-    with pytest.raises(SessionError, match="trial 4 is not the one"):
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (lambda line: {"position": 1 - line["position"]}, r"line 6: position = [01]: planned is [01]\nIt was changed"),
+        (lambda line: {"block": 3}, "line 6: block = 3: planned is 0"),
+        (lambda line: {"level": 9.9}, "line 6: level = 9.9: planned is 0"),
+        (lambda line: {"trial": 3}, "line 6: trial = 3: planned is 4"),
+        (lambda line: {"kind": "catch"}, "line 6: kind = 'catch': planned is 'trial'"),
+        (lambda line: {"kind": ""}, "line 6: is no line of this session"),
+        (lambda line: {"answer": "maybe"}, "line 6: answer = 'maybe': is no answer of two_intervals"),
+        (lambda line: {"felt": []}, "line 6: felt = 0: intervals, and a trial has 2"),
+        (lambda line: {"recordings": ["P02-0004-1.parquet"]}, "'P02-0004-1.parquet': is the name of another trial's"),
+        (lambda line: {"answer": {"first": "second", "second": "first"}[line["answer"]]}, r"line \d+: level = "),
+    ],
+)
+def test_a_trial_that_was_changed_by_hand_is_told_and_neither_analysed_nor_continued(
+    tmp_path: Path, senses: Senses, wrong: Callable[[dict], dict], words: str
+) -> None:
+    """Another answer of QUEST+ leads to other levels."""
+    path = changed(tmp_path, senses, wrong)
+    with pytest.raises(SessionError, match=words):
+        write_report(senses.protocol, tmp_path)
+    with pytest.raises(SessionError, match=words):
         Session(senses.protocol, tmp_path, "P01")
     path.rename(tmp_path / "P02.jsonl")
-    with pytest.raises(SessionError, match="is the session of P01"):
+    with pytest.raises(SessionError, match=r"is the session of P01|is no line"):
         write_report(senses.protocol, tmp_path)
 
 
-@pytest.mark.parametrize(
-    "wrong", [{"answer": "maybe"}, {"position": 7}, {"level": 9.9}, {"felt": []}, {"trial": 3}, {"kind": ""}]
-)
-def test_a_trial_that_was_changed_by_hand_is_not_analysed(tmp_path: Path, senses: Senses, wrong: dict) -> None:
-    changed(tmp_path, senses, lambda _: wrong)
-    with pytest.raises(SessionError, match="line 6: is no line of this session"):
+def test_many_differences_are_counted_and_an_earlier_version_is_named(tmp_path: Path, senses: Senses) -> None:
+    path = changed(tmp_path, senses, lambda line: {})
+    header, first, *rest = path.read_text().splitlines()
+    header = json.dumps(json.loads(header) | {"version": "0.1"})
+    path.write_text("\n".join([header, *rest, first]) + "\n")
+    with pytest.raises(SessionError, match=r"(?s)line 2: trial = 1: .*\n  and \d+ more\nUse Punctura 0\.1, which"):
         write_report(senses.protocol, tmp_path)
 
 

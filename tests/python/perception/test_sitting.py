@@ -12,6 +12,7 @@ from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import DiskFullError, Session, SessionError, load_protocol, read_session, write_report
 from punctura.perception.course import Line
+from punctura.perception.session import check_recordings
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
 from punctura.record.header import from_text
@@ -110,7 +111,11 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         (first,) = saved(tmp_path)
         status, why = person.page.get(f"/api/recordings/{first.recordings[0].removesuffix('.parquet')}", "DELETE")
         assert status == 409 and b"A participant's session runs." in why
-    assert read_session(tmp_path / "out" / "P01.jsonl")[0].consent and first.answer == "second"
+    header = read_session(tmp_path / "out" / "P01.jsonl")[0]
+    assert header.consent and first.answer == "second"
+    check_recordings(header, [first], tmp_path / "out")
+    with pytest.raises(SessionError, match="is the recording of trial 0 of P01, not of trial 1 of P01: restore it"):
+        check_recordings(header, [first.model_copy(update={"trial": 1})], tmp_path / "out")
     recording = open_recording(tmp_path / "out" / first.recordings[0])
     levels = [0.41, 0.41]
     levels[first.position] = first.level
