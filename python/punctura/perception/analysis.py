@@ -6,16 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from pydantic import BaseModel
 from scipy.special import betaincinv, chdtrc, chdtri, ndtr, ndtri, stdtrit, xlogy  # scipy.stats takes long
 
 from punctura.perception.course import Line, counted
 from punctura.perception.load import LEAST
 from punctura.perception.protocol import Protocol
 from punctura.perception.psychometric import QUARTER, Array, Belief, posterior
+from punctura.perception.results import SHARES, Analysis, Detection, Estimate, Person
 
-LEVEL = 0.95  # of all intervals
-SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
 VAGUE = 0.75  # of the range of the levels: an interval of the threshold that says nothing
 OPEN = 0.15  # of the largest density: that much at the end of the prior, and the answers set no bound there
 MISFIT = 0.001  # probability of answers that fit the function as badly
@@ -26,15 +24,7 @@ LEAST_CELL = 5  # answers for a rate of d'
 RATE, END = 0.45, 0.2  # added to k of n for a rate, taken from none: then d' has the least bias (docs/decisions)
 PRIOR = 0.8  # of each rate, a beta distribution: then the interval of d' holds nearest to 95 % (docs/decisions)
 _POINTS = 200  # of each rate, for that interval
-
-
-class Estimate(NamedTuple):
-    """A number and the ends of its 95 % interval. If the answers set no bound, an end is infinite. The number may be
-    NaN then."""
-
-    value: float
-    low: float
-    high: float
+HEAD = 10  # trials: no two people feel and answer so many alike
 
 
 class Answers(NamedTuple):
@@ -48,50 +38,6 @@ class Answers(NamedTuple):
     side: Array  # 1: the comparison was in the first interval; -1: in another one. Of a setting: it began at the
     # highest level; at the lowest one
     reference: Array  # the level of the other intervals, felt or planned as x; NaN without one
-
-
-class Detection(BaseModel):
-    """Answers at one level by the theory of signal detection."""
-
-    level: float
-    trials: int
-    dprime: Estimate
-    criterion: Estimate  # of yes, or of the first interval
-
-
-class Person(BaseModel):
-    """The result of one participant. Levels are in the unit of the protocol's variable."""
-
-    participant: str
-    device: str = ""  # its model; empty for an observer
-    device_simulated: bool = False  # then no hand felt a force
-    trials: int  # scored
-    threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
-    # difference from the reference that is told with a probability half-way between guess and 1
-    jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself
-    weber: Estimate | None = None  # jnd / reference
-    lapse: Estimate | None = None  # of the fit: share of answers by chance
-    first: Estimate | None = None  # share of "first" if two intervals do not differ: the bias
-    slope: Estimate | None = None  # of ratings: points for each unit of the variable
-    reason: str = ""  # why there is no threshold
-    detection: list[Detection] = []  # one for each level
-    by_block: list[float | None] = []  # share of right answers or yes; mean rating or setting
-    catch_trials: int = 0  # that were answered
-    catch_counted: int = 0  # of them, how many with the answer that counts
-
-
-class Analysis(BaseModel):
-    """All participants, and their means with the interval of Student's t."""
-
-    protocol: str  # its name
-    unit: str  # of the levels
-    felt: bool  # whether the function is one of the felt quantity, not of the planned level
-    people: list[Person]  # one for each participant
-    threshold: Estimate | None = None  # mean of the people
-    jnd: Estimate | None = None  # mean of the people
-    weber: Estimate | None = None  # mean of the people
-    slope: Estimate | None = None  # mean of the people
-    reason: str = ""  # why there are no means
 
 
 def answers_of(protocol: Protocol, lines: Sequence[Line]) -> tuple[Answers, Answers]:
@@ -305,9 +251,25 @@ def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimat
     return Estimate(value, -np.inf if no_low else low, np.inf if no_high else high)
 
 
+def copies(sessions: Mapping[str, Sequence[Line]]) -> dict[str, str]:
+    """The sessions that begin as an earlier one, and the name of that one."""
+    first, found = dict[object, str](), dict[str, str]()
+    for name, lines in sessions.items():
+        head = tuple((line.level, line.position, line.answer, line.felt) for line in lines[:HEAD])
+        if len(head) == HEAD and (other := first.setdefault(head, name)) != name:
+            found[name] = other
+    return found
+
+
 def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Line]]) -> Analysis:
     """All participants: the lines of each session by pseudonym, without headers."""
-    people = [person(protocol, name, lines) for name, lines in sessions.items()]
+    again, people = copies(sessions), list[Person]()
+    for name, lines in sessions.items():
+        if other := again.get(name, ""):
+            reason = f"the session of {other} under another name, not counted: delete one of the two files"
+            people.append(Person(participant=name, trials=0, copy_of=other, reason=reason))
+        else:
+            people.append(person(protocol, name, lines))
     result = Analysis(protocol=protocol.name, unit=protocol.unit, felt=protocol.in_newtons, people=people)
     known = [one for one in people if one.threshold or one.slope]
     if len(known) < 2:

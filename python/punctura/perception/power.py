@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from punctura.perception.analysis import Estimate, Person, analyse, person
+from punctura.perception.analysis import analyse, person
 from punctura.perception.observer import Observer, Senses, Simulation
 from punctura.perception.protocol import Protocol
 from punctura.perception.psychometric import Array
+from punctura.perception.results import Estimate, Person
 from punctura.progress import Report
 
 NO_NUMBER = Estimate(np.nan, np.nan, np.nan)

@@ -13,23 +13,10 @@ import numpy as np
 import pyarrow as pa
 
 from punctura.files.whole_file import write_whole
-from punctura.perception.analysis import (
-    END,
-    LEVEL,
-    RATE,
-    SHARES,
-    Analysis,
-    Answers,
-    Detection,
-    Estimate,
-    Person,
-    analyse,
-    answers_of,
-    belief_of,
-    felt_level,
-)
+from punctura.perception.analysis import END, RATE, Answers, analyse, answers_of, belief_of, felt_level
 from punctura.perception.course import Line, counted
 from punctura.perception.protocol import Protocol
+from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Estimate, Person
 from punctura.perception.session import (
     TABLES,
     Header,
@@ -53,6 +40,10 @@ STYLE = (
     "td,th{padding:0 5px;border-bottom:.5pt solid #ccc;text-align:left;font-weight:normal}tr{break-inside:avoid}"
 )
 NO_FORCE = "; no hand felt a force, because a mouse, a finger or keys moved the needle"
+SAME_ORDER = (
+    "{names} have the same number, {number}, and so the same order of trials: its effects are not balanced over them. "
+    "If all begin in one folder, each has a number of its own."
+)
 OPEN_END = (
     '"At least" and "at most": all answers of a kind were alike, so one end is open. About '
     f"{-np.log(1 - LEVEL) / (RATE - END):.0f} times as many such trials would most likely close it, or fewer with "
@@ -101,7 +92,7 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
 
     Raises SessionError if there is none, or one of another protocol, or one that was changed by hand.
     """
-    found, rows, headers = {}, list[dict[str, object]](), dict[str, Header]()
+    found, headers = dict[str, list[Line]](), dict[str, Header]()
     for path in sessions(folder):
         header, lines = read_session(path)
         if header:
@@ -109,13 +100,14 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
             replayed(protocol, header, lines, path)
             check_recordings(header, lines, folder)
             found[path.stem], headers[path.stem] = lines, header
-            rows += [_row(protocol, header, line) for line in lines]
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
     analysis = analyse(protocol, found)
+    rows = list[dict[str, object]]()
     for one in analysis.people:
         header = headers[one.participant]
-        one.device, one.device_simulated = header.device, header.device_simulated
+        one.number, one.device, one.device_simulated = header.number, header.device, header.device_simulated
+        rows += [_row(protocol, header, line) for line in found[one.participant] if not one.copy_of]
     table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
     about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
     for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
@@ -168,9 +160,9 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         blocks = ", ".join("-" if share is None else format(share, form) for share in one.by_block)
         rows.append([one.participant, str(one.trials), *cells, blocks])
     if not found.reason:
-        known = sum(not one.reason for one in found.people)
+        known, counted = sum(not one.reason for one in found.people), sum(not one.copy_of for one in found.people)
         means = [words(getattr(found, key, None)) for key in keys]
-        rows.append([f"**mean of {known} of {len(found.people)} people**", "", *means, ""])
+        rows.append([f"**mean of {known} of {counted} people**", "", *means, ""])
     lines = [
         f"# {file.title}", "", f"*{file.question}*", "",
         f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
@@ -182,6 +174,10 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)
         lines += [f"Device of {names}: {device}{NO_FORCE * simulated}.", ""]
+    numbered = [(one.number, one.participant) for one in found.people if not one.copy_of]
+    for number in sorted({number for number, _ in numbered if number is not None}):
+        alike = [name for other, name in numbered if other == number]
+        lines += [SAME_ORDER.format(names=" and ".join(alike), number=number), ""] * (len(alike) > 1)
     detected = [one for one in found.people if one.detection]
     lines += ["## d'", ""] * bool(detected)
     for i in range(0, len(detected), ABREAST):

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, YES_N, line, with_levels, written
-from punctura.perception import Observer, Protocol, Simulation, analyse, coverage, load_protocol
-from punctura.perception.analysis import Estimate, person
+from punctura.perception import Estimate, Observer, Protocol, Simulation, analyse, coverage, load_protocol
+from punctura.perception.analysis import person
 from punctura.perception.course import Course, Kind, Line
 from punctura.perception.observer import Senses
 from punctura.perception.power import power, with_trials

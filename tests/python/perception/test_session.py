@@ -142,6 +142,23 @@ def test_many_differences_are_counted_and_an_earlier_version_is_named(tmp_path: 
         write_report(senses.protocol, tmp_path)
 
 
+def test_a_session_under_two_names_counts_once_and_equal_numbers_are_told(tmp_path: Path, senses: Senses) -> None:
+    simulation = Simulation(senses.protocol, Observer(), senses)
+    for folder, name, seed in ((tmp_path, "P01", 7), (tmp_path / "other", "P03", 8)):
+        simulation.run_on_disk(folder, name, seed)
+    (tmp_path / "other" / "P03.jsonl").rename(tmp_path / "P03.jsonl")
+    again = (tmp_path / "P01.jsonl").read_text().replace('"participant":"P01"', '"participant":"P02"')
+    (tmp_path / "P02.jsonl").write_text(again)
+    found = write_report(senses.protocol, tmp_path)
+    one, two, three = found.people
+    assert two.copy_of == "P01" and two.reason.startswith("the session of P01 under another name, not counted: delete")
+    assert found.threshold and one.threshold and three.threshold
+    assert found.threshold.value == pytest.approx((one.threshold.value + three.threshold.value) / 2)
+    report = (tmp_path / "report.md").read_text()
+    assert "| **mean of 2 of 2 people** |" in report and "P01 and P03 have the same number, 0, and so" in report
+    assert "P02" not in (tmp_path / "trials.csv").read_text()
+
+
 def test_participants_have_their_own_numbers_and_can_be_deleted(
     tmp_path: Path, senses: Senses, monkeypatch: pytest.MonkeyPatch
 ) -> None:

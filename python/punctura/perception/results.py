@@ -1,0 +1,63 @@
+"""What the analysis tells: of a level, of a participant, of all."""
+
+from typing import NamedTuple
+
+from pydantic import BaseModel
+
+LEVEL = 0.95  # of all intervals
+SHARES = ((1 - LEVEL) / 2, (1 + LEVEL) / 2)
+
+
+class Estimate(NamedTuple):
+    """A number and the ends of its 95 % interval. If the answers set no bound, an end is infinite. The number may be
+    NaN then."""
+
+    value: float
+    low: float
+    high: float
+
+
+class Detection(BaseModel):
+    """Answers at one level by the theory of signal detection."""
+
+    level: float
+    trials: int
+    dprime: Estimate
+    criterion: Estimate  # of yes, or of the first interval
+
+
+class Person(BaseModel):
+    """The result of one participant. Levels are in the unit of the protocol's variable."""
+
+    participant: str
+    number: int | None = None  # decides the order of the trials
+    copy_of: str = ""  # the participant whose session this is, too; then it is not counted
+    device: str = ""  # its model; empty for an observer
+    device_simulated: bool = False  # then no hand felt a force
+    trials: int  # scored
+    threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
+    # difference from the reference that is told with a probability half-way between guess and 1
+    jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself
+    weber: Estimate | None = None  # jnd / reference
+    lapse: Estimate | None = None  # of the fit: share of answers by chance
+    first: Estimate | None = None  # share of "first" if two intervals do not differ: the bias
+    slope: Estimate | None = None  # of ratings: points for each unit of the variable
+    reason: str = ""  # why there is no threshold
+    detection: list[Detection] = []  # one for each level
+    by_block: list[float | None] = []  # share of right answers or yes; mean rating or setting
+    catch_trials: int = 0  # that were answered
+    catch_counted: int = 0  # of them, how many with the answer that counts
+
+
+class Analysis(BaseModel):
+    """All participants, and their means with the interval of Student's t."""
+
+    protocol: str  # its name
+    unit: str  # of the levels
+    felt: bool  # whether the function is one of the felt quantity, not of the planned level
+    people: list[Person]  # one for each participant
+    threshold: Estimate | None = None  # mean of the people
+    jnd: Estimate | None = None  # mean of the people
+    weber: Estimate | None = None  # mean of the people
+    slope: Estimate | None = None  # mean of the people
+    reason: str = ""  # why there are no means
