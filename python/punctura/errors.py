@@ -1,5 +1,6 @@
 """The exceptions of Punctura. A ConfigurationError lists all problems at once."""
 
+import errno
 import os
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
@@ -14,6 +15,9 @@ __all__ = [
     "PuncturaError",
     "sentence_of",
 ]
+
+
+FREE_SPACE: Final = "free some space"  # on a full disk, or of a full quota
 
 
 class _Missing:
@@ -67,9 +71,15 @@ class IncompleteCallError(PuncturaError):
     """Options of a command are missing. The message has the whole command."""
 
 
+def is_full(error: BaseException) -> bool:
+    """Whether the disk, or the user's share of it, is full."""
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
+
+
 def sentence_of(error: BaseException) -> str:
-    """The sentence of an error; an error of the system names its file first and has no number."""
+    """The sentence of an error; an error of the system names its file first, has no number, and ends with the remedy
+    of a full disk."""
     if not isinstance(error, OSError) or error.filename is None or not error.strerror:
         return str(error)
     what = "there is no such file" if isinstance(error, FileNotFoundError) else error.strerror
-    return f"{os.fsdecode(error.filename)}: {what}"
+    return f"{os.fsdecode(error.filename)}: {what}" + f"; {FREE_SPACE}" * is_full(error)

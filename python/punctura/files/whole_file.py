@@ -72,7 +72,7 @@ def whole_file(path: Path, replace: bool = True, private: bool = False) -> Itera
         internal = error.filename is None or str(error.filename) in (place, str(hidden), str(path.parent))
         if error.errno is None or not internal:
             raise
-        raise type(error)(error.errno, error.strerror, str(path)) from None
+        raise type(error)(error.errno, os.strerror(error.errno), str(path)) from None  # Arrow's own text is longer
     finally:
         if descriptor is not None:
             os.close(descriptor)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import os
 import re
 from collections.abc import Sequence
@@ -13,7 +12,7 @@ from pathlib import Path
 from pydantic import BaseModel, NonNegativeInt, ValidationError
 
 from punctura import PuncturaError, __version__
-from punctura.errors import Problem
+from punctura.errors import FREE_SPACE, Problem, is_full
 from punctura.files.whole_file import private, private_folder, sync
 from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol
@@ -34,16 +33,6 @@ class SessionError(PuncturaError):
 
 class DiskFullError(SessionError):
     """An answer is not on disk yet. Free some space, and give the same answer again: `Session.add`."""
-
-    remedy = "free some space"  # what to do
-
-    @property
-    def fact(self) -> str:
-        """What is wrong, with the file, without the remedy."""
-        return str(self.args[0])
-
-    def __str__(self) -> str:
-        return f"{self.fact}: {self.remedy}"
 
 
 class Header(BaseModel, frozen=True):
@@ -159,8 +148,9 @@ class Session:
             os.fsync(self._descriptor)
         except OSError as bad:
             os.ftruncate(self._descriptor, size)
-            if bad.errno in (errno.ENOSPC, errno.EDQUOT):
-                raise DiskFullError(f"{self.path}: the disk is full, and this answer is not saved") from None
+            if is_full(bad):
+                text = f"{self.path}: the disk is full, and this answer is not saved; {FREE_SPACE}"
+                raise DiskFullError(text) from None
             raise
 
 

@@ -1,6 +1,5 @@
 """The writer thread, and the queue of what it has to write. Only this thread waits for the disk."""
 
-import errno
 import os
 import threading
 import time
@@ -9,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from punctura.defects import explain
+from punctura.errors import FREE_SPACE, is_full
 from punctura.record.append_file import AppendFile
 from punctura.record.description import RecordingError
 from punctura.record.part_file import PartFile
@@ -82,7 +82,7 @@ class Backlog:
 RETRY_S = 0.5
 LAST_TRIES_S = 2.0  # retry this long if the disk fails at the end of the recording
 _MOST_NOTES = 100
-_FREE_SPACE = ". Free some space on this disk: writing then goes on"  # while the recording goes on
+_ADVICE = f"; {FREE_SPACE}, and writing goes on"  # while the recording goes on
 
 
 class Writer:
@@ -113,7 +113,7 @@ class Writer:
     def join(self) -> None:
         """Call after the backlog is closed. Waits until all pieces are written or have failed."""
         self._thread.join()
-        self.trouble = self.trouble.removesuffix(_FREE_SPACE)
+        self.trouble = self.trouble.removesuffix(_ADVICE)
 
     def note(self, text: str) -> None:
         if len(self.notes) < _MOST_NOTES:
@@ -184,8 +184,7 @@ class Writer:
             self.trouble = self.why_unwritten = str(bad)
             return
         reason = os.strerror(bad.errno) if isinstance(bad, OSError) and bad.errno else explain(bad)
-        full = isinstance(bad, OSError) and bad.errno in (errno.ENOSPC, errno.EDQUOT)
-        advice = _FREE_SPACE if full else ""
+        advice = _ADVICE * is_full(bad)
         self.trouble, self.why_unwritten = f"{self._path} could not be written: {reason}{advice}", reason
 
 

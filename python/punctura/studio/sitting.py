@@ -18,12 +18,12 @@ from pydantic import BaseModel
 from punctura import Phase, PuncturaError, Scene
 from punctura._core import Fault, ServoState
 from punctura.defects import explain
-from punctura.errors import sentence_of
+from punctura.errors import FREE_SPACE, sentence_of
 from punctura.events import crossing
 from punctura.perception.course import Trial, counted
 from punctura.perception.protocol import Protocol
-from punctura.perception.session import DiskFullError, agreed, recordings
 from punctura.perception.session import Session as Answers
+from punctura.perception.session import agreed, recordings
 from punctura.perception.stimulus import READY_S, Felt, Spoilt, faulted, felt_of
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
@@ -34,7 +34,7 @@ from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
 ENDED = Spoilt("failed", "the ticks have ceased: check the connection of the device")
-MEND = "mend this (on a full disk, make space)"
+MEND = f"mend this (on a full disk, {FREE_SPACE})"
 Then = Callable[[str], None]  # gets an answer
 
 
@@ -242,10 +242,10 @@ class PerceptionSitting:
     def _pause(self, why: Exception | str, then: Then) -> None:
         """The participant calls the experimenter, whose terminal has the reason."""
         self._studio.run.loop.pause()
-        fact, remedy = why if isinstance(why, str) else sentence_of(why), MEND
-        if isinstance(why, DiskFullError):
-            fact, remedy = why.fact, why.remedy
-        self._tell(f'{fact.rstrip(". ")}; {remedy}, then press "{self._words.go_on}" at the page')
+        text = why if isinstance(why, str) else sentence_of(why)
+        if not text.endswith(FREE_SPACE):
+            text = f"{text.rstrip('. ')}; {MEND}"
+        self._tell(f'{text}, then press "{self._words.go_on}" at the page')
         self._say(self._words.paused, GO, then)
 
     def _ask(self, felt: list[Felt]) -> None:

@@ -13,7 +13,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from punctura import PuncturaError
-from punctura.errors import NoSuchFileError
+from punctura.errors import FREE_SPACE, NoSuchFileError, is_full
 from punctura.files.whole_file import whole_file, write_whole
 from punctura.record.new_file import lock
 
@@ -61,8 +61,8 @@ class Folder:
     def _with_advice(self, error: OSError) -> Exception:
         """The error with what to do, if it is of this folder."""
         place = Path(os.fsdecode(error.filename)) if isinstance(error.filename, str | bytes) else self.path
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            advice = "the disk is full. Finished chunks are kept: free some space and give the same command again"
+        if is_full(error):
+            advice = f"the disk is full. Finished chunks are kept: {FREE_SPACE} and give the same command again"
         elif self.path in (place, *place.parents) or place in self.path.parents:
             advice = f"cannot be written ({error.strerror}): give another folder with --out"
         else:

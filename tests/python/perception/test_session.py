@@ -12,6 +12,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from protocols import COMPARES, RIGHT, YES, written
+from punctura.defects import explain
 from punctura.perception import (
     DiskFullError,
     Observer,
@@ -72,6 +73,20 @@ def test_a_full_disk_pauses_the_session(tmp_path: Path, senses: Senses, monkeypa
         assert session.next() == trial
         session.add(trial, *given)
     assert [line.trial for line in read_session(tmp_path / "P01.jsonl")[1]] == [0]
+
+
+def test_a_full_disk_has_its_remedy_in_the_message_about_a_table(
+    tmp_path: Path, senses: Senses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Session(senses.protocol, tmp_path, "P01").__exit__()
+
+    def full(schema: object, where: Path) -> None:
+        raise OSError(errno.ENOSPC, "Error writing bytes to file. Detail: [errno 28] No space left on device")
+
+    monkeypatch.setattr("punctura.ticks.files.CsvOutput", full)  # as Arrow says it
+    with pytest.raises(OSError, match="No space left on device") as bad:
+        write_report(senses.protocol, tmp_path)
+    assert explain(bad.value) == f"{tmp_path / 'trials.csv'}: {os.strerror(errno.ENOSPC)}; free some space"
 
 
 def test_what_is_no_session_of_the_protocol_is_refused(tmp_path: Path, senses: Senses) -> None:

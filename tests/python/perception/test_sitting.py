@@ -27,7 +27,7 @@ from pydantic import BaseModel
 from waiting import LATE_ALLOWED, wait_until
 
 TOLD: list[str] = []  # at the terminal
-REMEDY = 'mend this (on a full disk, make space), then press "Go on" at the page'
+REMEDY = 'mend this (on a full disk, free some space), then press "Go on" at the page'
 SCALED = '[values]\n"display.force_scale" = 0.8\n'
 
 
@@ -257,10 +257,10 @@ def test_a_trial_that_was_not_felt_as_planned_is_repeated(tmp_path: Path, monkey
         person.goes_through()
         person.reads("Did it pop?")
         add = Session.add
-        monkeypatch.setattr(Session, "add", lambda *_: raised(DiskFullError("P01.jsonl: the disk is full")))
+        monkeypatch.setattr(Session, "add", lambda *_: raised(DiskFullError("P01.jsonl: full; free some space")))
         person.answers("yes")
         person.reads("The session has paused. Please call the experimenter.")
-        assert TOLD[-1] == 'P01.jsonl: the disk is full; free some space, then press "Go on" at the page'
+        assert TOLD[-1] == 'P01.jsonl: full; free some space, then press "Go on" at the page'
         monkeypatch.setattr(Session, "add", add)
         person.answers("Go on")
         person.reads("Trial 2")
