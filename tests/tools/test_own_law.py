@@ -106,6 +106,19 @@ def test_a_class_that_is_no_law_for_a_scene_is_refused_with_the_cause(tmp_path, 
     assert "It needs, in public: using Scalar = double" in done.stderr
 
 
+@pytest.mark.parametrize("other_form", ["int ... const noexcept", "bool ... noexcept", "bool ... const"])
+def test_a_law_that_says_from_which_one_it_goes_on_in_another_form_is_refused(tmp_path, other_form):
+    def with_function(form: str) -> str:
+        function = form.replace("...", "goes_on_from(const Own&)") + " { return false; }"
+        program = LAW.replace("using Scalar", function + " using Scalar")
+        return program + "bool same(const Own& a) { return goes_on_from(a, a); }"
+
+    assert checked(tmp_path, with_function("bool ... const noexcept")).returncode == 0
+    done = checked(tmp_path, with_function(other_form))
+    assert done.returncode != 0
+    assert "bool goes_on_from(const Own& before) const noexcept" in done.stderr
+
+
 MODEL = """#include "punctura_runtime/loop/step_maker.hpp"
 using namespace punctura;
 struct Own {

@@ -41,9 +41,10 @@ class NeedleSyringe {
     for (const auto& layer : layers_) {
       if (layer.membrane >= insertion.size()) std::abort();
       const auto& tick = insertion.tick(layer.membrane);
-      const bool in = inside(tick.phase);
-      const Scalar U = in ? layer.thickness / insertion.cos_beta(layer.membrane) : layer.thickness;  // K06 (17)
-      opening.pass({in ? tick.depth : Scalar(0), U, layer.inside, layer.behind});
+      // A barred wall gives the needle no force, but it is around the opening: its depth is along the normal.
+      const Scalar U = inside(tick.phase) ? layer.thickness / insertion.cos_beta(layer.membrane)  // K06 (17)
+                                          : layer.thickness;
+      opening.pass({tick.phase == Phase::outside ? Scalar(0) : tick.depth, U, layer.inside, layer.behind});
     }
     return plunger.step(thumb, opening.outlet());
   }

@@ -54,16 +54,20 @@ inline constexpr bool is_proven = false;
 
 /// Whether a law may go on from the state of the proxy that another law had inside the wall. Proven laws go on from
 /// each other. An own law goes on from its own kind only: nobody knows what it does with the state of another one. A
-/// law that is several kinds in one class says so itself: bool is_kind_of(const Law& before) const noexcept.
+/// law that is several kinds in one class says so itself: bool goes_on_from(const Own& before) const noexcept.
 template <typename L, typename Before>
 constexpr bool goes_on_from(const L& law, const Before& before) noexcept {
   if constexpr (is_proven<L> && is_proven<Before>)
     return true;
   else if constexpr (!std::is_same_v<L, Before>)
     return false;
-  else if constexpr (requires { law.is_kind_of(before); })
-    return law.is_kind_of(before);
-  else
+  else if constexpr (requires { &L::goes_on_from; }) {
+    static_assert(
+        requires {
+          { law.goes_on_from(before) } noexcept -> std::same_as<bool>;
+        }, "the law needs, in this form: bool goes_on_from(const Own& before) const noexcept");
+    return law.goes_on_from(before);
+  } else
     return true;
 }
 

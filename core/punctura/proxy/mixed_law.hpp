@@ -152,11 +152,11 @@ class MixedLaw {
     return flawed;
   }
 
-  /// For goes_on_from().
-  constexpr bool is_kind_of(const MixedLaw& before) const noexcept {
+  /// Whether the law in use goes on from the one that was in use before.
+  constexpr bool goes_on_from(const MixedLaw& before) const noexcept {
     bool goes_on = false;
     visit([&]<std::size_t>(const auto& law) {
-      before.visit([&]<std::size_t>(const auto& other) { goes_on = goes_on_from(law, other); });
+      before.visit([&]<std::size_t>(const auto& other) { goes_on = punctura::goes_on_from(law, other); });
     });
     return goes_on;
   }

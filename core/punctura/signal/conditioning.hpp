@@ -86,9 +86,8 @@ class PositionConditioner {
 
   constexpr bool started() const noexcept { return low_pass_.started(); }
   constexpr Scalar low_pass_gain() const noexcept { return low_pass_.gain(); }  ///< of a sample, 0 to 1
-  constexpr const Line* line() const noexcept {
-    return fits_ ? &lines_[0] : nullptr;
-  }  ///< of one axis; null: no line is fitted
+  /// Of one axis; null: no line is fitted.
+  constexpr const Line* line() const noexcept { return fits_ ? &lines_[0] : nullptr; }
 
   /// Inlined without the line fit: in front of few membranes, the call is a part of the tick that one sees.
   [[gnu::always_inline]] constexpr Vector step(const Vector& measured) noexcept {

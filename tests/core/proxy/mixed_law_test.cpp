@@ -188,6 +188,13 @@ TEST_CASE("a law inside two MixedLaws is told from another one") {
   CHECK(goes_on_from(half, half));
   CHECK(!goes_on_from(cut, half));
   CHECK(!goes_on_from(cut, Outer(wall)));
+
+  struct Own : CutLaw {
+    int kind = 0;
+    constexpr bool goes_on_from(const Own& before) const noexcept { return kind == before.kind; }
+  };
+  CHECK(goes_on_from(Own{{}, 1}, Own{{}, 1}));
+  CHECK(!goes_on_from(Own{{}, 1}, Own{{}, 2}));
 }
 
 TEST_CASE("a kept state of another kind of law is refused, also if both have the same pieces") {

@@ -63,6 +63,17 @@ TEST_CASE("a thumb that pushes in the tissue is stopped, and goes in when the op
   CHECK(injected > 0.1e-6);
 }
 
+TEST_CASE("a membrane that is barred resists the liquid, too") {
+  auto step = build(with_syringe());  // it begins with the whole opening in the tissue
+  double thumb = 0;
+  for (std::uint64_t k = 2100; k < 2500; ++k) {
+    step.step(sample_at(k, depth_at(2100), thumb));
+    thumb = std::min(thumb + 1e-5, 2e-3);
+  }
+  CHECK(step.snapshot().membranes[0].phase == Phase::barred);
+  CHECK(step.snapshot().syringe.pressure > 1e4);  // in open air less than 1 Pa
+}
+
 TEST_CASE("the syringe does not change the needle's force, and a scene without one records NaN") {
   Scene plain = with_syringe();
   plain.syringe.reset();
