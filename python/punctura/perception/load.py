@@ -44,11 +44,9 @@ def load_protocol(name_or_path: str | os.PathLike[str]) -> Protocol:
         rows, found = list(_paths(file, scene) if scene else ()), list(problems_of(file.words, KEYS))
         found += _answers(file) if "task" not in wrong else ()
         if not wrong & {"method", "task"}:  # without them the others mean nothing
-            rows += _trials(file)
-            if wrong & {"stimulus", "stimulus.levels"}:
-                wrong.add("trials.per_level")
-            else:
-                rows += [*_stimulus(file), *_reference(file)]
+            rows += [*(_trials(file) if "trials" not in wrong else ()), *_intervals(file)]
+            if not wrong & {"stimulus", "stimulus.levels", "trials"}:
+                rows += [*_amounts(file), *_among_levels(file)]
         found += [Problem(key, _plain(value), reason) for bad, key, value, reason in rows if bad]
         problems += [problem for problem in found if problem.path not in wrong]
     protocol = None
@@ -113,19 +111,33 @@ def _answers(file: ProtocolFile) -> Iterator[Problem]:
 Row = tuple[bool, str, object, str]
 
 
-def _trials(file: ProtocolFile) -> Iterator[Row]:
-    given, method = file.trials, file.method
-    wanted, other = ("per_level", "total") if method == "constant" else ("total", "per_level")
-    extra, count, least = getattr(given, other), getattr(given, wanted), LEAST[method]
-    scored = file.scored
+def _count(file: ProtocolFile) -> tuple[str, str]:
+    """The key for the number of trials, and the one that other methods have."""
+    return ("per_level", "total") if file.method == "constant" else ("total", "per_level")
+
+
+def _amounts(file: ProtocolFile) -> Iterator[Row]:
+    """How many trials there are."""
+    key, _ = _count(file)
+    count, scored, least, blocks = getattr(file.trials, key), file.scored, LEAST[file.method], file.trials.blocks
     few = f"{scored} trials are too few for the fit" if scored < least else f"are {scored} trials"
     counts = least <= scored <= MOST_TRIALS
+    reason = f"{few}: {file.method} needs from {least} to {MOST_TRIALS} without practice and catch"
+    yield count is not None and not counts, f"trials.{key}", count, reason
+    yield (
+        counts and count % blocks > 0,
+        "trials.blocks",
+        blocks,
+        f"must divide {key}, {count}, so that all blocks are alike",
+    )
+
+
+def _trials(file: ProtocolFile) -> Iterator[Row]:
+    given, method = file.trials, file.method
+    wanted, other = _count(file)
+    extra = getattr(given, other)
     yield extra is not None, f"trials.{other}", extra, f"is not for {method}; give {wanted}"
-    yield count is None, f"trials.{wanted}", MISSING, f"is missing; {method} needs it"
-    reason = f"{few}: {method} needs from {least} to {MOST_TRIALS} without practice and catch"
-    yield count is not None and not counts, f"trials.{wanted}", count, reason
-    reason = f"must divide {wanted}, {count}, so that all blocks are alike"
-    yield counts and count % given.blocks > 0, "trials.blocks", given.blocks, reason
+    yield getattr(given, wanted) is None, f"trials.{wanted}", MISSING, f"is missing; {method} needs it"
     adjusts = method == "adjustment", file.task == "adjustment"
     yield adjusts[0] != adjusts[1], "method", method, "and task must both be adjustment, or none of them"
     reason = "and catch are not for adjustment; leave both out"
@@ -139,18 +151,12 @@ def _trials(file: ProtocolFile) -> Iterator[Row]:
     yield method == "staircase" and kept <= guess, "trials.up", given.up, reason
 
 
-def _stimulus(file: ProtocolFile) -> Iterator[Row]:
-    reason = "must be more than 0 for magnitude, whose result is an exponent"
-    yield file.task == "magnitude" and min(file.levels) <= 0, "stimulus.levels", file.levels, reason
+def _intervals(file: ProtocolFile) -> Iterator[Row]:
+    """What the task asks of the method and of the other intervals."""
+    given, task, reference = file.stimulus, file.task, file.stimulus.reference
     plain = file.method == "constant" and not file.trials.catch
     reason = "is for constant stimuli without catch trials: change method or catch"
-    yield file.task in ("rating", "magnitude") and not plain, "task", file.task, reason
-
-
-def _reference(file: ProtocolFile) -> Iterator[Row]:
-    """Of the other intervals."""
-    given, task, levels, where = file.stimulus, file.task, file.levels, "stimulus.reference"
-    reference, catch = (None if one is None else float(one) for one in (given.reference, file.trials.catch_level))
+    yield task in ("rating", "magnitude") and not plain, "task", task, reason
     if task in ONE_INTERVAL:
         for key in ("reference", "reference_solver"):
             value = getattr(given, key)
@@ -158,10 +164,21 @@ def _reference(file: ProtocolFile) -> Iterator[Row]:
         return
     by_solver = given.reference_solver is not None
     reason = f"{task} needs a reference, a level, or a reference_solver, and not both"
-    yield (reference is None) != by_solver, where, MISSING if reference is None else reference, reason
+    missing = reference is None
+    yield missing != by_solver, "stimulus.reference", MISSING if missing else reference, reason
+    catch = file.trials.catch_level
     reason = "is not for reference_solver: the other intervals would have another level; leave catch out"
     yield by_solver and catch is not None, "trials.catch_level", catch, reason
-    if reference is None:
+
+
+def _among_levels(file: ProtocolFile) -> Iterator[Row]:
+    """Where the reference and the level of catch trials lie."""
+    task, levels, where = file.task, file.levels, "stimulus.reference"
+    reason = "must be more than 0 for magnitude, whose result is an exponent"
+    yield task == "magnitude" and min(levels) <= 0, "stimulus.levels", levels, reason
+    given = file.stimulus.reference, file.trials.catch_level
+    reference, catch = (None if one is None else float(one) for one in given)
+    if reference is None or task in ONE_INTERVAL:
         return
     one_sided = not min(levels) < reference < max(levels)
     yield one_sided and task == "adjustment", where, reference, "must lie between the levels for adjustment"

@@ -59,7 +59,10 @@ Levels = Annotated[
 ]
 Ends = Annotated[
     Numbers,
-    _valid(lambda given: len(given) == 2 and given[0] < given[1], "must be two numbers, the smaller one first"),
+    _valid(
+        lambda given: len(given) == 2 and all(map(math.isfinite, given)) and given[0] < given[1],
+        "must be two finite numbers, the smaller one first",
+    ),
 ]
 Break = Annotated[Number, _valid(lambda value: 0 < float(value) <= 3600, "must be more than 0 and at most 3600")]
 

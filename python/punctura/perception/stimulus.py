@@ -139,8 +139,10 @@ def _felt(ticks: Ticks, scene: Scene, membrane: int, ready: float) -> Felt:
     if cuts := limits & {*CUTS}:
         why = " and ".join(LIMIT_WORDS[name] for name in sorted(cuts))
         raise Spoilt("cut", f"the {why} cut the force: let the motors cool, or plan a study with less force")
-    if limits or (ticks.state[stroke] != ServoState.active).any():
+    if limits or ticks.state[run.touch] != ServoState.active:
         raise Spoilt("weak", "the needle touched the tissue before the force was on")
+    if ((ticks.state != ServoState.active) & (run.depth > 0))[stroke].any():
+        raise Spoilt("off", "the force went off while the needle was in the tissue: hold the device's button")
     through = crossing(scene, membrane, 1.0).through
     if ticks.depth[:, membrane].max() < through:
         raise Spoilt("short", "the needle did not go through the tissue")

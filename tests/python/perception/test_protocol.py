@@ -3,15 +3,19 @@
 import re
 from pathlib import Path
 
+import numpy as np
+import punctura as pn
 import pytest
 from protocols import ADJUST, COMPARES, RIGHT, SOLVED, YES, written
 from punctura import ConfigurationError
-from punctura._core import ForceLimits
+from punctura._core import Experiment, Fault, ForceLimits, ServoState, Strokes
+from punctura.live import stroke_ends
 from punctura.perception import Observer, Simulation, load_protocol, protocol_names
 from punctura.perception.analysis import person
 from punctura.perception.course import Course
 from punctura.perception.load import check_device
-from punctura.perception.stimulus import simulated
+from punctura.perception.stimulus import Spoilt, _felt, faulted, simulated
+from punctura.ticks import Ticks
 
 
 def problems(folder: Path, text: str) -> dict[str, str]:
@@ -39,6 +43,14 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
     found = problems(tmp_path, text + 'break_s = 0\n[words]\nlast = "{x}"\n[values]\n"needle.x" = 1\n')
     wanted = ["method", "task", "seed", "picture", "trials.blocks", "trials.break_s", "words.last", 'values."needle.x"']
     assert found.keys() == {*wanted, "stimulus.levels", "stimulus.solve"}  # each key by itself
+    text = re.sub("levels = .*", "levels = [1, 1]\nreference = 3", YES)  # wrong levels hide no other problem
+    assert problems(tmp_path, text).keys() == {"stimulus.levels", "stimulus.reference"}
+    text = (
+        re.sub("levels = .*", "levels = [1, 1]", YES).replace('"yes_no"', '"rating"').replace('"constant"', '"quest"')
+    )
+    assert problems(tmp_path, text).keys() >= {"stimulus.levels", "task"}
+    text = re.sub(r"\[trials\](\n\w.*)*", "", YES)
+    assert problems(tmp_path, "trials = 3\n" + text).keys() == {"trials"}
 
 
 @pytest.mark.parametrize(
@@ -67,7 +79,8 @@ def test_all_problems_of_a_protocol_at_once(tmp_path: Path) -> None:
         (SOLVED, "0.35]", "2.5]", "stimulus.levels[2]", "no scene gives 2.5 N"),
         (SOLVED, "between = [0.0, 1.5]", "", "stimulus.between", "is missing"),
         (SOLVED, "between = [0.0, 1.5]", "between = [1.5, 0]", "stimulus.between", "the smaller one first"),
-        (SOLVED, "between = [0.0, 1.5]", "between = [0, inf]", "stimulus.between", "must be a finite number"),
+        (SOLVED, "between = [0.0, 1.5]", "between = [0, inf]", "stimulus.between", "must be two finite numbers"),
+        (SOLVED, "between = [0.0, 1.5]", "between = [nan, 1]", "stimulus.between", "must be two finite numbers"),
         (SOLVED, "between = [0.0, 1.5]", "between = [-3, 1.5]", "stimulus.between", "must be 0 or more"),
         (YES, "catch_level = 0.012", "catch_level = 0.0003", "trials.catch_level", "lack what is asked for"),
         (COMPARES, "Which one fell more?", " ", "question", "must not be empty"),
@@ -117,3 +130,20 @@ def test_the_ready_protocols_run_on_observers(name: str) -> None:
     else:
         truth = simulation.threshold()
         assert found.threshold is not None and found.threshold.value == pytest.approx(truth, rel=0.35)
+
+
+@pytest.mark.parametrize("fault", Fault)
+def test_a_fault_is_told_without_the_reset_that_going_on_does(fault: Fault) -> None:
+    assert "reset" not in str(faulted(fault))
+
+
+def test_a_force_that_goes_off_in_the_tissue_is_not_one_that_was_not_on_yet() -> None:
+    scene = pn.load_scene("k06-fig10")
+    ticks = Experiment(scene, Strokes(*stroke_ends(scene), count=1, duration=1.0, rest=0.3)).run(1.4)
+    inside = np.flatnonzero(ticks.depth[:, 0] > 0)
+    for first, word in ((inside[0], "weak"), (inside[100], "off")):
+        state = ticks.state.copy()
+        state[first : first + 200] = ServoState.waiting.value
+        with pytest.raises(Spoilt) as why:
+            _felt(Ticks({**ticks, "lost": np.zeros(len(ticks), np.uint32), "state": state}), scene, 0, 0.0)
+        assert why.value.word == word
