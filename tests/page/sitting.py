@@ -81,12 +81,19 @@ def stroke(page: Page) -> None:
 
 def until(page: Page, words: str) -> None:
     """Strokes until the page says this; "Go on" after a trial that a busy computer has spoilt."""
-    while words not in (now := page.locator(".stage-sentence").inner_text()):
+    repeats = 0
+    for _ in range(300):
+        now = page.locator(".stage-sentence").inner_text()
+        if words in now:
+            return
         if "push the needle" in now:
             stroke(page)
         elif "repeated" in now or "comes back" in now:
+            repeats += 1
+            assert repeats <= 5, now
             page.keyboard.press("Enter")
         page.wait_for_timeout(100)
+    raise AssertionError(f"the page does not say {words!r}, but {now!r}")
 
 
 def on_disk(folder: Path) -> list[Line]:
