@@ -9,6 +9,7 @@ import numpy as np
 from scipy.special import betaincinv, chdtrc, chdtri, ndtr, ndtri, stdtrit, xlogy  # scipy.stats takes long
 
 from punctura.perception.course import Line, counted
+from punctura.perception.drift import change
 from punctura.perception.load import LEAST
 from punctura.perception.protocol import Protocol
 from punctura.perception.psychometric import QUARTER, Array, Belief, posterior
@@ -99,6 +100,7 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Line]) -> Perso
         by_block=[float(right.mean()) if len(right) else None for right in judged],
         catch_trials=len(catch.x), catch_counted=int(catch.right.sum()), reason=_too_little(protocol, found),
     )  # fmt: skip
+    _change(protocol, found, None, result)
     if result.reason:
         return result
     if protocol.rates:
@@ -107,15 +109,37 @@ def person(protocol: Protocol, participant: str, lines: Sequence[Line]) -> Perso
     elif protocol.adjusts:
         result.threshold, result.jnd = _settings(protocol, found)
     else:
-        _fit(protocol, found, catch, result)
+        belief = belief_of(protocol, found, catch)
+        _change(protocol, found, belief, result)
+        _fit(protocol, found, catch, belief, result)
     reference = abs(float(found.reference.mean()))
     if result.jnd and reference > 0:
         result.weber = Estimate(*(one / reference for one in result.jnd))
     return result
 
 
-def _fit(protocol: Protocol, found: Answers, catch: Answers, result: Person) -> None:
-    belief = belief_of(protocol, found, catch)
+def _change(protocol: Protocol, found: Answers, belief: Belief | None, result: Person) -> None:
+    """Over the blocks. With a method that follows the answers, those at a level depend on each other: there, all are
+    compared with what the fit expects."""
+    follows, p = protocol.file.method in ("staircase", "quest"), np.zeros_like(found.x)
+    if follows == (belief is None) or len(np.unique(found.block)) < 2:
+        return
+    if belief:
+        p = (belief.grid.probability(found.x, found.side) * belief.weight).sum(axis=1)
+
+    def of(value: Array, expected: Array) -> Estimate | None:
+        seen = np.isfinite(value)
+        alike = [found.side] if protocol.adjusts else [found.level, found.side]
+        if not belief:
+            return change(value[seen], found.block[seen], [one[seen] for one in alike])
+        known = expected[seen]
+        return change(value[seen] - known, found.block[seen], [np.zeros_like(known)], known * (1 - known))
+
+    result.change = of(found.right, np.where(found.right == found.counted, p, 1 - p))
+    result.shift = of(found.counted, p) if protocol.compares else None
+
+
+def _fit(protocol: Protocol, found: Answers, catch: Answers, belief: Belief, result: Person) -> None:
     grid, shape = belief.grid, protocol.shape
     ends = [belief.mean(np.asarray(beyond, np.float64)) for beyond in (grid.place < grid.low, grid.place > grid.high)]
     outside = sum(ends)
@@ -276,7 +300,7 @@ def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Line]]) -> Analy
         what = "slope" if protocol.rates else "threshold"
         result.reason = f"{len(known)} participant{'s' * (len(known) != 1)} with a {what}: a mean needs 2"
         return result
-    for key in ("threshold", "jnd", "weber", "slope"):
+    for key in ("threshold", "jnd", "weber", "slope", "change", "shift"):
         values = np.array([getattr(person, key)[0] if getattr(person, key) else np.nan for person in known])
         if np.isfinite(values).all():
             setattr(result, key, _mean(values))

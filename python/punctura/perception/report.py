@@ -15,8 +15,9 @@ import pyarrow as pa
 from punctura.files.whole_file import write_whole
 from punctura.perception.analysis import END, RATE, Answers, analyse, answers_of, belief_of, felt_level
 from punctura.perception.course import Line, counted
+from punctura.perception.drift import sentences
 from punctura.perception.protocol import Protocol
-from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Estimate, Person
+from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Person, words
 from punctura.perception.session import (
     TABLES,
     Header,
@@ -121,17 +122,6 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
     return analysis
 
 
-def words(one: Estimate | None) -> str:
-    """The number and its interval, or the bound that the answers set."""
-    if one is None or not np.isfinite([one.low, one.high]).any():
-        return "-"
-    value, low, high = (f"{round(end, 12) + 0:.3g}" for end in one)
-    if np.isfinite([one.low, one.high]).all():
-        return f"{value} ({low} to {high})"
-    bound = f"at least {low}" if np.isfinite(one.low) else f"at most {high}"
-    return f"{value} ({bound})" if np.isfinite(one.value) else bound
-
-
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     return [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)] + [""]
 
@@ -171,6 +161,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
+    lines += [line for text in sentences(protocol, found) for line in (text, "")]
     for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)
         lines += [f"Device of {names}: {device}{NO_FORCE * simulated}.", ""]

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+import numpy as np
 from pydantic import BaseModel
 
 LEVEL = 0.95  # of all intervals
@@ -45,6 +46,8 @@ class Person(BaseModel):
     reason: str = ""  # why there is no threshold
     detection: list[Detection] = []  # one for each level
     by_block: list[float | None] = []  # share of right answers or yes; mean rating or setting
+    change: Estimate | None = None  # of by_block, from the first block to the last, at the same levels
+    shift: Estimate | None = None  # the same of the share of "the comparison", which moves the threshold
     catch_trials: int = 0  # that were answered
     catch_counted: int = 0  # of them, how many with the answer that counts
 
@@ -60,4 +63,17 @@ class Analysis(BaseModel):
     jnd: Estimate | None = None  # mean of the people
     weber: Estimate | None = None  # mean of the people
     slope: Estimate | None = None  # mean of the people
+    change: Estimate | None = None  # mean of the people
+    shift: Estimate | None = None  # mean of the people
     reason: str = ""  # why there are no means
+
+
+def words(one: Estimate | None) -> str:
+    """The number and its interval, or the bound that the answers set."""
+    if one is None or not np.isfinite([one.low, one.high]).any():
+        return "-"
+    value, low, high = (f"{round(end, 12) + 0:.3g}" for end in one)
+    if np.isfinite([one.low, one.high]).all():
+        return f"{value} ({low} to {high})"
+    bound = f"at least {low}" if np.isfinite(one.low) else f"at most {high}"
+    return f"{value} ({bound})" if np.isfinite(one.value) else bound

@@ -14,7 +14,7 @@ from punctura.perception.course import Course, Kind, Line
 from punctura.perception.observer import Senses
 from punctura.perception.power import power, with_trials
 from punctura.perception.psychometric import Shape, posterior
-from punctura.perception.report import words
+from punctura.perception.results import words
 from punctura.ready_protocols import protocol_files
 from scipy.optimize import minimize
 from scipy.special import ndtr, ndtri

@@ -13,7 +13,7 @@ from punctura.perception.analysis import person
 from punctura.perception.course import Course, Trial, quest, staircase
 from punctura.perception.power import with_trials
 from punctura.perception.psychometric import QUEST, Grid
-from punctura.perception.report import words
+from punctura.perception.results import words
 
 
 @pytest.fixture(scope="module")
