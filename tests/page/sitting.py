@@ -114,7 +114,9 @@ def act(page: Page) -> int:
     words = page.locator(".stage-sentence").inner_text()
     if "push the needle" in words:
         stroke(page)
-    page.keyboard.press("y" if "Did it pop?" in words or "Do you agree?" in words else "Enter")
+    if "Do you agree?" in words:
+        page.keyboard.type("yes")
+    page.keyboard.press("y" if "Did it pop?" in words else "Enter")
     page.wait_for_timeout(50)
     found = re.match(r"Trial (\d+) of|(\d+) of", words)
     return (int(found[1]) - 1 if found[1] else int(found[2])) if found else 0

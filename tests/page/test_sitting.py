@@ -6,7 +6,7 @@ from person import opened
 from playwright.sync_api import expect
 from punctura.perception import Observer, Simulation, load_protocol, write_report
 from senses import STUBS
-from sitting import answered, on_disk, sentence, sitting, until
+from sitting import PROTOCOL, answered, on_disk, sentence, sitting, until
 
 
 def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, tmp_path):
@@ -41,6 +41,21 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
             page.keyboard.press("n")
             sentence(page, "That was the last trial.")
     assert [line.answer for line in on_disk(tmp_path)][18:] == ["yes", "no"]
+
+
+def test_a_full_word_gives_consent_and_a_key_does_not(browser, tmp_path):
+    (tmp_path / "mine.toml").write_text(PROTOCOL)
+    with sitting(tmp_path) as studio, opened(browser, studio.url, bench=False) as page:
+        sentence(page, "I take part. Do you agree?")
+        typed = page.get_by_placeholder("Type yes or no, then Enter")
+        page.keyboard.type("y")
+        expect(typed).to_have_value("y")
+        page.keyboard.press("Enter")
+        expect(typed).to_have_value("")
+        assert not (tmp_path / "people" / "P01.jsonl").exists()
+        page.keyboard.type("Yes")
+        page.keyboard.press("Enter")
+        sentence(page, "The session begins.")
 
 
 def test_nothing_but_the_force_tells_of_a_pop_though_the_browser_remembers_bench_and_sound(browser, tmp_path):

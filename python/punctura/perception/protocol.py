@@ -258,6 +258,12 @@ class Protocol:
         return abs(self.judged(self.stimuli[i]) - (self.judged(self.references[i]) if self.references else 0.0))
 
     @property
+    def consented(self) -> str:
+        """What a participant has read and answered who agreed; empty if nothing was asked."""
+        words = self.file.words
+        return self.file.consent and f"{self.file.consent} {words.agree} {words.yes}"
+
+    @property
     def digest(self) -> str:
         """What the order of the trials and the stimuli depend on.
 

@@ -48,6 +48,7 @@ class Header(BaseModel, frozen=True):
     version: str  # of Punctura
     began: str = ""  # ISO 8601, UTC
     consent: bool = False
+    consented: str = ""  # to which text, as it was read, with the answer; at `began`
 
 
 def agreed(protocol: Protocol, folder: Path, participant: str) -> bool:
@@ -105,6 +106,7 @@ class Session:
                     protocol=protocol.name, digest=protocol.digest, participant=participant, version=__version__,
                     number=_free_number(others, simulated), simulated=simulated, began=_now(),
                     device=device, device_simulated=device_simulated, consent=bool(protocol.file.consent),
+                    consented="" if simulated else protocol.consented,
                 )  # fmt: skip
                 self._append(header)
             check_header(header, protocol, self.path)

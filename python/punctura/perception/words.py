@@ -12,6 +12,7 @@ class WordsTable(Table):
     """Each sentence and each answer of a session, in English if left out. A text in braces is filled in."""
 
     agree: Text = "Do you agree?"
+    full_word: Text = "Type {yes} or {no}, then Enter"
     declined: Text = "Then there is no session. Thank you."
     unfelt: Text = "No haptic device: the simulated one is used, and no hand feels a force."
     begins: Text = "The session begins."  # without an instruction
@@ -52,6 +53,11 @@ class WordsTable(Table):
     equal: Text = "equal"
 
 
+def plain(text: str) -> str:
+    """As texts are compared: typed ones may have another case."""
+    return text.strip().casefold()
+
+
 def problems_of(words: WordsTable, answers: Iterable[str]) -> Iterator[Problem]:
     """An empty text, braces that nothing fills in, and two answers that read the same."""
     for key, field in WordsTable.model_fields.items():
@@ -63,7 +69,7 @@ def problems_of(words: WordsTable, answers: Iterable[str]) -> Iterator[Problem]:
             yield Problem(f"words.{key}", text, "must not be empty: leave it out for English")
     read: dict[str, str] = {}
     for key in answers:
-        text = getattr(words, key).strip()
+        text = plain(getattr(words, key))
         if text in read:
             yield Problem(f"words.{key}", text, f"is what {read[text]} reads, too; give each answer its own")
         read.setdefault(text, key)

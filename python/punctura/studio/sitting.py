@@ -25,6 +25,7 @@ from punctura.perception.protocol import Protocol
 from punctura.perception.session import Session as Answers
 from punctura.perception.session import agreed, recordings
 from punctura.perception.stimulus import READY_S, Felt, Spoilt, faulted, felt_of
+from punctura.perception.words import plain
 from punctura.record import RecorderStatus
 from punctura.studio.activity import Outcome
 from punctura.studio.loaded import Loaded
@@ -54,9 +55,9 @@ class PerceptionSitting:
         self._tell = tell
         self._studio, self._protocol, self._base, self._participant = studio, protocol, base, participant
         self._words, self._folder = protocol.file.words, studio.shelf.folder
-        page = self._words.model_dump(include={"force_off", "sound", "gone", "number"})
+        page = self._words.model_dump(include={"force_off", "sound", "gone"})
         self._shown = SittingMessage(
-            question=0, sentence="", answers=[], any_number=False, covered=True, noise=protocol.file.noise, **page
+            question=0, sentence="", answers=[], typed="", covered=True, noise=protocol.file.noise, **page
         )
         self._then: Then = lambda answer: None
         self._read: dict[str, str] = {}  # each answer as the participant reads it
@@ -77,16 +78,19 @@ class PerceptionSitting:
     def start(self) -> None:
         self._idle()
         if self._answers is None:
-            consent = f"{self._protocol.file.consent} {self._words.agree}"
-            self._say(consent, {"yes": "y", "no": "n"}, self._consented)
+            answers = self._words.model_dump(include={"yes", "no"})  # a single key may be pressed by chance
+            sentence = f"{self._protocol.file.consent} {self._words.agree}"
+            self._say(sentence, answers, self._consented, typed=self._words.full_word.format(**answers))
         else:
             self._welcome()
 
     def respond(self, question: int, answer: str) -> None:
-        now = self._shown
-        if question == now.question and (answer in self._read or (now.any_number and self._protocol.takes(answer))):
+        now, given = self._shown, self._read.get(plain(answer))
+        if not self._read and now.typed and self._protocol.takes(answer):
+            given = answer
+        if question == now.question and given is not None:
             then, self._then = self._then, lambda _: None  # once: a defect in it must not save an answer twice
-            then(self._read.get(answer, answer))
+            then(given)
 
     def close(self) -> None:
         """After the studio has stopped."""
@@ -250,7 +254,8 @@ class PerceptionSitting:
 
     def _ask(self, felt: list[Felt]) -> None:
         answers, question = self._protocol.answers, self._protocol.file.question
-        self._say(question, answers, lambda answer: self._save(answer, felt), any_number=not answers)
+        number = "" if answers else self._words.number
+        self._say(question, answers, lambda answer: self._save(answer, felt), typed=number)
 
     def _save(self, answer: str, felt: list[Felt]) -> None:
         trial, protocol = self._trial, self._protocol
@@ -266,13 +271,15 @@ class PerceptionSitting:
         self._next()
 
     def _say(
-        self, sentence: str, answers: Mapping[str, str] | None = None, then: Then = lambda answer: None, **more: bool
-    ) -> None:
-        """answers: the key of each. more: fields of the message."""
-        self._read = {getattr(self._words, name, name): name for name in answers or {}}
-        keys = [AnswerKey(name=name, key=key) for name, key in zip(self._read, (answers or {}).values(), strict=True)]
+        self, sentence: str, answers: Mapping[str, str] = {}, then: Then = lambda answer: None,
+        covered: bool = True, typed: str = "",
+    ) -> None:  # fmt: skip
+        """answers: the key of each. covered, typed: see SittingMessage."""
+        read = {name: getattr(self._words, name, name) for name in answers}
+        self._read = {plain(text): name for name, text in read.items()}
+        keys = [AnswerKey(name=read[name], key=key) for name, key in answers.items()]
         new = {"question": self._shown.question + 1, "sentence": self._remark + sentence, "answers": keys}
-        self._shown = self._shown.model_copy(update={"covered": True, "any_number": False, **new, **more})
+        self._shown = self._shown.model_copy(update={"covered": covered, "typed": typed, **new})
         self._then = then
         if sentence != self._words.wait:
             self._remark = ""

@@ -63,6 +63,7 @@ class Person:
 GERMAN = """
 [words]
 agree = "Sind Sie einverstanden?"
+yes = "Ja"
 go_on = "Weiter"
 interval = "Durchgang {trial}, Teil {interval}: {stroke}"
 second = "zweite"
@@ -99,7 +100,9 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         person.reads("simulated one is used, and no hand feels a force. I agree. Sind Sie einverstanden?")
         assert person.now["noise"]
         assert not person.page.ask(do="load", scene="venipuncture")["ok"]  # a session has the studio for itself
-        person.answers("yes")
+        assert [one["key"] for one in person.now["answers"]] == ["Ja", "no"]  # no single key gives consent
+        assert person.now["typed"] == "Type Ja or no, then Enter"
+        person.answers("ja")
         person.reads("The session begins.")  # what is left out is English
         person.answers("Weiter")
         person.goes_through("Durchgang 1, Teil 1: push the needle through the tissue")
@@ -112,7 +115,7 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         status, why = person.page.get(f"/api/recordings/{first.recordings[0].removesuffix('.parquet')}", "DELETE")
         assert status == 409 and b"A participant's session runs." in why
     header = read_session(tmp_path / "out" / "P01.jsonl")[0]
-    assert header.consent and first.answer == "second"
+    assert header.consent and header.consented == "I agree. Sind Sie einverstanden? Ja" and first.answer == "second"
     check_recordings(header, [first], tmp_path / "out")
     with pytest.raises(SessionError, match="is the recording of trial 0 of P01, not of trial 1 of P01: restore it"):
         check_recordings(header, [first.model_copy(update={"trial": 1})], tmp_path / "out")
@@ -176,7 +179,7 @@ def test_no_consent_no_session(tmp_path: Path) -> None:
         person.page.wait(lambda n=person.page.ticks: person.page.ticks > n + 400)
         person.answers("no")
         person.reads("Then there is no session.")
-    assert not (tmp_path / "out" / "P01.jsonl").exists()
+    assert not list((tmp_path / "out").glob("*"))  # nothing is stored
     with pytest.raises(SessionError, match="has not agreed"):
         Session(load_protocol(tmp_path / "mine.toml"), tmp_path / "out", "P01")
 

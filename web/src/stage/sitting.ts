@@ -10,7 +10,6 @@ const MOVES = ["ArrowDown", "ArrowUp", "Shift"];
 export const sitting: Panel = (root, app) => {
   const answers = element("div", { role: "group", "aria-label": "Answers" });
   const typed = element("input", {
-    inputmode: "decimal",
     autocomplete: "off",
   });
   const off = (): void => void app.ask({ do: "pause" });
@@ -51,10 +50,11 @@ export const sitting: Panel = (root, app) => {
     );
     answers.replaceChildren(...buttons);
     stop.textContent = now.force_off;
-    typed.placeholder = typed.ariaLabel = now.number;
-    typed.hidden = gone || !now.any_number;
+    typed.placeholder = typed.ariaLabel = now.typed;
+    typed.hidden = gone || !now.typed;
+    typed.inputMode = now.answers.length ? "text" : "decimal";
     typed.value = "";
-    const next = now.any_number ? typed : root.querySelector<HTMLElement>('[role="application"]');
+    const next = now.typed ? typed : root.querySelector<HTMLElement>('[role="application"]');
     next?.focus({ preventScroll: true });
   };
   app.sitting.watch(show);
@@ -68,7 +68,9 @@ export const sitting: Panel = (root, app) => {
     const now = app.sitting.value;
     if (!now || event.ctrlKey || event.metaKey || MOVES.includes(event.key)) return;
     if (event.target === typed && event.key !== "Escape") {
-      if (event.key === "Enter") answer(typed.value.trim());
+      if (event.key !== "Enter") return;
+      answer(typed.value.trim());
+      typed.value = ""; // what may be typed is read again if this was none of it
       return;
     }
     event.stopImmediatePropagation();

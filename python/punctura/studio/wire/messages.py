@@ -206,13 +206,12 @@ class SittingMessage(Part):
     question: int  # its number, which `respond` repeats
     sentence: str
     answers: list[AnswerKey]  # none: the needle is to be moved
-    any_number: bool  # above 0: it is an answer
+    typed: str  # what may be typed as an answer: a number or one of the answers; empty: nothing
     covered: bool  # the view is hidden
     noise: bool  # pink noise plays, which masks the motors
-    force_off: str  # this and the next three: what the page itself says
+    force_off: str  # this and the next two: what the page itself says
     sound: str
     gone: str
-    number: str
 
 
 class Reply(Part):
