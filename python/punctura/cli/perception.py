@@ -6,6 +6,7 @@ import json
 import re
 import sys
 from dataclasses import asdict
+from html import unescape
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -167,7 +168,7 @@ def _analysed(protocol: Protocol, folder: Path, as_json: bool) -> None:
     if as_json:
         typer.echo(found.model_dump_json(indent=1))
         return
-    report = (folder / "report.md").read_text(encoding="utf-8")
+    report = unescape((folder / "report.md").read_text(encoding="utf-8"))
     typer.echo(re.split(r"\n(?:## |!\[)", report, maxsplit=1)[0].rstrip())  # without d' at each level and the picture
     typer.echo(str(folder / "report.html"))
 

@@ -122,6 +122,11 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
     return analysis
 
 
+def _safe(text: str) -> str:
+    """A text that is not ours, for Markdown and HTML: on one line, without their signs."""
+    return escape(" ".join(text.split()), quote=False).replace("](", "]&#40;").replace("|", "&#124;")
+
+
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     return [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)] + [""]
 
@@ -154,17 +159,17 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         means = [words(getattr(found, key, None)) for key in keys]
         rows.append([f"**mean of {known} of {counted} people**", "", *means, ""])
     lines = [
-        f"# {file.title}", "", f"*{file.question}*", "",
-        f"Scene {file.scene}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted against "
-        f"{what}. Intervals are {LEVEL:.0%} intervals{whose}. Source of the protocol: "
-        f"{file.source or 'not given'}.", "",
+        f"# {_safe(file.title)}", "", f"*{_safe(file.question)}*", "",
+        f"Scene {_safe(file.scene)}, {file.method}, {file.task}, variable {file.stimulus.variable}{unit}, fitted "
+        f"against {what}. Intervals are {LEVEL:.0%} intervals{whose}. Source of the protocol: "
+        f"{_safe(file.source) or 'not given'}.", "",
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
     lines += [line for text in sentences(protocol, found) for line in (text, "")]
     for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)
-        lines += [f"Device of {names}: {device}{NO_FORCE * simulated}.", ""]
+        lines += [f"Device of {names}: {_safe(device)}{NO_FORCE * simulated}.", ""]
     numbered = [(one.number, one.participant) for one in found.people if not one.copy_of]
     for number in sorted({number for number, _ in numbered if number is not None}):
         alike = [name for other, name in numbered if other == number]
@@ -201,7 +206,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
 def _page(text: str, picture: str) -> str:
     """The same report as one file to look at and to print."""
     parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>Report</title><style>{STYLE}</style>"]
-    for block in re.split(r"\n\n+", escape(text.strip())):
+    for block in re.split(r"\n\n+", text.strip()):
         row = block.partition(" ")
         if row[0] == "|":
             rows = [line[2:-2].split(" | ") for line in block.splitlines() if not line.startswith("| ---")]

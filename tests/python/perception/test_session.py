@@ -246,6 +246,21 @@ def test_the_verbs_end_to_end(tmp_path: Path, punctura: Callable[..., tuple[int,
         agreed(load_protocol(changed), folder, "P01")  # before a person is asked to agree
 
 
+def test_a_text_that_is_not_ours_is_no_part_of_a_report(tmp_path: Path) -> None:
+    """Neither of its HTML nor of its Markdown: no script, no link, no table, no line of its own."""
+    title = "A <script>alert(1)</script> & ![b](http://x.example/y.png) | c\\n\\n# Another"
+    text = YES.replace("Was there a pop?", title).replace("[stimulus]", 'source = "<img src=x>"\n[stimulus]', 1)
+    protocol = load_protocol(written(tmp_path, text))
+    Session(protocol, tmp_path, "P01", device="<b>Touch</b>").__exit__()
+    write_report(protocol, tmp_path)
+    for name in ("report.md", "report.html"):
+        report = (tmp_path / name).read_text()
+        assert (
+            "A &lt;script&gt;alert(1)&lt;/script&gt; &amp; ![b]&#40;http://x.example/y.png) &#124; c # Anot" in report
+        )
+        assert "&lt;img src=x&gt;" in report and "&lt;b&gt;Touch&lt;/b&gt;" in report
+
+
 def test_a_report_says_what_so_few_answers_do_not_tell(tmp_path: Path) -> None:
     rating = COMPARES.replace('"two_intervals"', '"rating"').replace("reference = 0.41\n", "")
     for name, few in (("chatter", True), (written(tmp_path, rating), False)):
