@@ -1,7 +1,6 @@
 """An exercise that is made in the page: saved, listed, tried, and opened from a file."""
 
 import re
-from pathlib import Path
 
 import tomllib
 from person import opened, push, ready, saved, tab
@@ -10,7 +9,7 @@ from punctura.exercise import load_exercise
 from punctura.scene import scene_path
 
 
-def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
+def test_an_exercise_is_made_saved_and_tried_under_its_title(page, studio):
     ready(page)
     side = tab(page, "Exercises")
     side.get_by_text("Make an exercise", exact=True).click()
@@ -30,8 +29,8 @@ def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
     expect(side.get_by_label("Lower edge, mm")).to_have_value(f"{after:g}")
     side.get_by_role("button", name="Save on this computer").click()
     note = side.locator(".maker-note")
-    expect(note).to_contain_text("saved in ")
-    file = Path(note.inner_text().split("saved in ")[1])
+    expect(note).to_have_text("“My own goal” is in the list.")  # and no path, which says nothing to a teacher
+    (file,) = (studio.recordings / "exercises").glob("*.toml")
     assert tomllib.loads(file.read_text(encoding="utf-8"))["space"]["deepest_mm"] == after
     expect(page.locator("article.exercise", has_text="My own goal")).to_be_visible()
     side.get_by_role("button", name="Try", exact=True).click()
@@ -49,6 +48,16 @@ def test_an_exercise_is_made_saved_and_tried_under_its_title(page):
     expect(running).to_contain_text("My own goal")
     running.get_by_role("button", name="End").click()
     expect(running).to_be_hidden()
+
+
+def test_whoever_comes_from_the_stage_tries_a_made_exercise_there(browser, studio):
+    with opened(browser, studio.url, bench=False) as page:
+        page.get_by_role("button", name="More").click()
+        ready(page)
+        side = tab(page, "Exercises")
+        side.get_by_text("Make an exercise", exact=True).click()
+        side.get_by_role("button", name="Try", exact=True).click()
+        expect(page.locator(".stage-sentence")).to_have_text("Push in until the thin membrane gives way, and stop.")
 
 
 def test_a_scene_with_a_syringe_offers_the_goals_of_the_plunger(page):

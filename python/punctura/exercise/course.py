@@ -135,7 +135,7 @@ def thumb_cannot_show(exercise: Exercise, scene: Scene, limits: ForceLimits, thu
     if thumb is None:
         return (
             "The thumb is a key here and feels nothing, so the plunger is judged by the model's force. With a second "
-            "device under the thumb (--second-device), it is judged by what the thumb could feel."
+            "haptic device under the thumb, it is judged by what the thumb could feel."
         )
     scale, left = force_scale(scene, limits), _left(exercise, scene, scene.syringe.syringe)
     least = max(left + LEAST_NEEDED_N / scale, left / (1 - NEEDED_SHARE))

@@ -37,8 +37,9 @@ def make(
         raise ValueError(f"{name} is the name of another exercise; choose another title, or rename the file")
     if isinstance(request, ask.OpenExercise):
         return _open(request, name, own)
-    path = own.save(name, made_of(request.tables), request.replace)
-    return f"saved in {path}", {"name": name}
+    exercise = made_of(request.tables)
+    own.save(name, exercise, request.replace)
+    return _warnings(exercise), {"name": name}
 
 
 def _open(request: ask.OpenExercise, name: str, own: OwnExercises) -> Made:

@@ -1,6 +1,7 @@
 import { errorText } from "../../../format.ts";
 import { button, element } from "../../../panel.ts";
 import type { App } from "../../../state/app.ts";
+import { backToStage, pageOf } from "../../../state/page.ts";
 import type { SceneOutline } from "../../../wire/messages.ts";
 import { sentence, words } from "../../editor/problems.ts";
 import type { Person } from "../person.ts";
@@ -78,14 +79,16 @@ export function exerciseMaker(app: App, person: Person, saved: () => Promise<voi
     const who = { person: person.name.value, group: person.group.value };
     clearTimeout(timer); // a check would clear what the reply says
     const reply = await app.ask({ do: "try_exercise", tables: tables(), ...who });
-    if (showReply(reply, "It runs now.")) await saved();
+    if (!showReply(reply, "It runs now.")) return;
+    backToStage(pageOf(app));
+    await saved();
   };
   const save = async (): Promise<void> => {
     clearTimeout(timer);
     const name = nameOf(draft!.title);
     const ask = { do: "save_exercise", name, tables: tables() } as const;
     const reply = await app.ask({ ...ask, replace: replace.checked });
-    if (showReply(reply, "")) await saved();
+    if (showReply(reply, `“${draft!.title}” is in the list.`)) await saved();
   };
   const download = async (): Promise<void> => {
     if (!(await check())) return;
