@@ -1,6 +1,7 @@
 """The result of an attempt: one thing to change, its moment again, and pages that look on."""
 
 import pytest
+from axe import AXE, check
 from person import opened, own_exercise, push, ready, tab, view, whole_at
 from playwright.sync_api import expect
 from studio_process import StudioProcess
@@ -86,6 +87,9 @@ def test_the_coach_shows_its_moment_and_a_projector_and_a_phone_that_look_on_fol
             shown = watching.get_by_role("dialog")
             expect(shown).to_contain_text("You pushed with more than 0.02 N")
             expect(shown.get_by_role("button", name="Try again")).to_have_count(0)
+
+        projector.evaluate(AXE.read_text(encoding="utf-8"))
+        check(projector, "a result on the stage", "dialog")
 
         dialog.get_by_role("button", name="Watch this moment, slowly").click()
         replay = page.locator(".player")
