@@ -56,7 +56,7 @@ export const phasesPanel: Panel = (host, app) => {
   const plots = plotsOf(app);
   const when = element("span", { class: "phases-when" });
   const body = element("tbody");
-  const columns = ["membrane", "phase", "depth, mm", `${MODEL_FORCE}, N`, "", "friction band, N"];
+  const columns = ["membrane", "phase", "depth along needle, mm", `${MODEL_FORCE}, N`, "", "friction band, N"];
   const heads = columns.map((text) => element("th", { scope: "col" }, text));
   const head = element("tr", {}, ...heads);
   host.append(

@@ -1,7 +1,7 @@
 import { element, everyFrame } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
-import { cutFigures, LIMIT_WORDS, lastCut, limitOf } from "../state/limits.ts";
+import { cutFigures, cutJustNow, LIMIT_WORDS, limitOf } from "../state/limits.ts";
 import { codeOf } from "../wire/ticks.ts";
 import { TURN_ON, waitingFor } from "./fault_banner.ts";
 import { CUT, STATES } from "./words.ts";
@@ -11,7 +11,6 @@ const DISARMED = codeOf("state", "disarmed");
 const ACTIVE = codeOf("state", "active");
 const WAITING = codeOf("state", "waiting");
 const TURN_OFF = "Turn force off";
-const HELD = 800; // ticks: a cut is shown for this long, so that it can be read
 const INTERVAL = 100; // ms between updates; faster ones cannot be read
 
 /** The state of the force, the limit that cuts it, and the button that turns it on or off; a fault has its own. */
@@ -48,7 +47,7 @@ export function stateButton(app: App): HTMLElement {
     const now = servoState(app);
     if (now === shown && time - last < INTERVAL) return;
     last = time;
-    const cut = now === ACTIVE ? lastCut(history, history.end - HELD) : null;
+    const cut = now === ACTIVE ? cutJustNow(history) : null;
     const entry = STATES[now];
     if (cut !== null) write(CUT.name, CUT.mark, `Force cut: ${LIMIT_WORDS[limitOf(history, cut)]}`, CUT.why);
     else if (now === WAITING) write(entry!.name, entry!.mark, waitingFor(app), entry!.why);

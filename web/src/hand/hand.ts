@@ -1,4 +1,4 @@
-import type { Triple } from "../engine/engine.ts";
+import type { Connection, Triple } from "../engine/engine.ts";
 import { everyFrame } from "../panel.ts";
 import { type App, onePerApp } from "../state/app.ts";
 import { controlWords } from "../state/control.ts";
@@ -29,7 +29,7 @@ export class Hand {
   /** The target from this page; null while something else moves the hand. */
   readonly target = new Signal<Pose | null>(null);
   /** Why this page cannot move the hand, in words; null if it can. */
-  readonly barred = new Signal<string | null>("The studio is not connected yet.");
+  readonly barred = new Signal<string | null>("Connecting to the studio.");
 
   constructor(private readonly app: App) {
     const look = (): void => {
@@ -68,7 +68,7 @@ export class Hand {
   private reason(): string | null {
     const { connection, hello, control, source } = this.app;
     if (connection.value.state !== "open" || !hello.value)
-      return this.app.engine.studio ? "The studio is not connected." : "The core does not run in this page yet.";
+      return this.app.engine.studio ? goneWords(connection.value) : "The core does not run in this page yet.";
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
     if (source.value.excerpt) return "A moment is shown again. Go back to the live run to move the needle.";
     if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
@@ -167,6 +167,14 @@ export class Hand {
     const [x = 0, y = 0, z = 0] = history.row("tip", history.end - 1);
     return length(sub(this.target.value.position, [x, y, z]));
   }
+}
+
+/** Why there is no connection, and what to do. */
+function goneWords(now: Connection): string {
+  if (now.state === "refused") return `${now.reason.replace(/\.$/, "")}. Open the address that the studio prints.`;
+  const again = "If its program has ended, start it again (./run); else this page connects by itself.";
+  const trying = now.state === "open" || (now.state === "connecting" && now.attempt <= 1);
+  return trying ? "Connecting to the studio." : `The studio does not answer. ${again}`;
 }
 
 /** The hand of this page; there is one per app. */

@@ -74,7 +74,7 @@ export class ForceDepthDrawing {
         if (law) drawBand(pen, this.pane, law, colourOf(theme, i));
       }
     });
-    drawAxes(pen, this.pane, theme, { x: "depth (mm)", y: "force (N)" });
+    drawAxes(pen, this.pane, theme, { x: "depth along the needle (mm)", y: "force (N)" });
     pen.within(left, top, width, height, () => {
       for (const i of hidden.shows("earlier") ? overlaidMembranes(picture) : [])
         this.drawOverlay(pen, overlay!, i, theme);

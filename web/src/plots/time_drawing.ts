@@ -103,7 +103,7 @@ export class TimeDrawing {
     drawStates(pen, this.force, this.depth, source.history, window, theme);
     if (hidden.shows("cut")) drawLimits(pen, this.force, source.history, window, theme);
     drawAxes(pen, this.force, theme, { y: "force (N)" });
-    drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth (mm)" });
+    drawAxes(pen, this.depth, theme, { x: "time (s)", y: "depth along the needle (mm)" });
     drawMarks(pen, this.force, this.depth, source, window, theme);
     if (hidden.shows("found")) drawFound(pen, this.force, this.depth, source, window, theme);
     this.drawMeans(pen, picture, theme);

@@ -50,7 +50,8 @@ export class Paper {
   private coarse(): DataTexture {
     const { sheet } = this;
     sheet.paint(0, sheet.height, COARSE);
-    const texture = new DataTexture(sheet.pixels, sheet.width, sheet.height, RGBAFormat);
+    const { data, width, height } = thinned(sheet, COARSE); // drawn larger it is soft, and has no squares
+    const texture = new DataTexture(data, width, height, RGBAFormat);
     texture.wrapS = RepeatWrapping;
     if (sheet.tiles) texture.wrapT = RepeatWrapping;
     texture.magFilter = LinearFilter;
@@ -69,6 +70,9 @@ export class Paper {
       this.row += ROWS_AT_ONCE;
     }
     if (this.row < this.sheet.height) return false;
+    const { pixels, width, height } = this.sheet;
+    this.texture.dispose(); // another size
+    this.texture.image = { data: pixels, width, height };
     this.texture.needsUpdate = true;
     return true;
   }
@@ -92,4 +96,19 @@ export class Paper {
     this.texture.dispose();
     this.material.dispose();
   }
+}
+
+/** Every so manyth pixel of every so manyth row. */
+export function thinned(
+  { pixels, width, height }: Pick<Sheet, "pixels" | "width" | "height">,
+  step: number,
+): { data: Uint8Array<ArrayBuffer>; width: number; height: number } {
+  const [wide, high] = [Math.ceil(width / step), Math.ceil(height / step)];
+  const data = new Uint8Array(4 * wide * high);
+  for (let y = 0; y < high; y++)
+    for (let x = 0; x < wide; x++) {
+      const from = 4 * (y * step * width + x * step);
+      data.set(pixels.subarray(from, from + 4), 4 * (y * wide + x));
+    }
+  return { data, width: wide, height: high };
 }

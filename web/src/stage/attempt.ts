@@ -53,8 +53,9 @@ export class Attempt {
   /** xs: forces, N; ys: depths, mm. NaN is a gap. */
   readonly path = new Polyline();
   pops: PopMark[] = [];
-  /** The greatest force, N. */
+  /** The greatest force, N, and depth, mm. */
   most = 0;
+  deepest = 0;
   /** Increases when the curve is another one and not only longer. */
   generation = 0;
   private next = 0; // tick
@@ -77,7 +78,7 @@ export class Attempt {
   private clear(): void {
     this.path.clear();
     this.pops = [];
-    this.most = 0;
+    this.most = this.deepest = 0;
     this.step = 1;
     this.last = [Number.NaN, Number.NaN];
     this.generation++;
@@ -123,6 +124,7 @@ export class Attempt {
     this.last = [down, strong];
     this.path.add(force, depth);
     this.most = Math.max(this.most, force);
+    this.deepest = Math.max(this.deepest, depth);
   }
 
   /** Twice the steps: what is left differs by one step at most from what was there. */

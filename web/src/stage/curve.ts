@@ -13,6 +13,7 @@ import { ABOVE_MM, type Attempt, type Felt } from "./attempt.ts";
 const AXIS = 34; // px, of the numbers of the depth
 const TOP = 2.6; // widths of a letter: the name and the numbers of the force
 const EDGE = 10; // px
+const NAME_EDGE = 6; // px, left and right of a layer's name
 const PULL = 0.3; // of the greatest force: room for a force that pulls
 const MARKS = 8; // widths of a letter: the room for the buttons, right of the greatest force
 const NAMES = 0.45; // of the width without the buttons: the most that the names take, left of the curve
@@ -26,8 +27,17 @@ interface Shown {
   /** Where the view has these depths, and where the curve's box begins in it, px; null: the curve's own scale. */
   readonly beside: { readonly scale: DepthScale; readonly top: number } | null;
   readonly now: Felt | null;
-  /** What an exercise asks to reach, where no view shows it. */
+  /** What an exercise asks to reach. */
   readonly goal: Goal | null;
+  /** Whether no view shows it. */
+  readonly marksGoal: boolean;
+}
+
+/** A button at a pop: force in N, depth in mm. */
+interface Mark {
+  readonly button: HTMLElement;
+  readonly force: number;
+  readonly depth: number;
 }
 
 /** The felt force to the right against the depth downwards, on the layers. Draws only what is new. */
@@ -49,6 +59,8 @@ export class CurvePicture {
   private drawn = "";
   private points = 0; // of the attempt that are drawn
   private most = 0;
+  private bottom = 0; // mm, of the scene's layers
+  private deep = 0; // mm, to which bands and axis go
   private depth: (mm: number) => number = () => 0;
   private axis = 0; // px, where the lines of the force begin, below its numbers
 
@@ -77,17 +89,18 @@ export class CurvePicture {
     if (!theme || width < 60 || height < 60) return false;
     const { attempt, bands, beside } = shown;
     while (this.most < shown.most) this.most = Math.max(shown.most, 1.3 * this.most);
+    this.deepen(shown);
     const scale = beside ? [beside.top, beside.scale.px(0), beside.scale.px(beside.scale.deep)] : [];
     const { generation, pops } = attempt;
     const named = [bands.length, bands.at(-1)?.bottom];
-    const state = [this.changes, generation, pops.length, this.most, ...named, ...scale].join(" ");
+    const state = [this.changes, generation, pops.length, this.most, this.deep, ...named, ...scale].join(" ");
     const anew = state !== this.drawn;
     if (anew) {
       this.drawn = state;
       this.points = 0;
       this.arrange(shown);
       this.pen.begin(width, height, devicePixelRatio);
-      this.drawGround(bands, theme);
+      this.drawGround(theme);
       this.drawBands(bands, theme);
       this.drawAxes(bands, theme);
     }
@@ -97,20 +110,43 @@ export class CurvePicture {
     return anew;
   }
 
-  /** Forgets how great the forces were. */
+  /** Forgets how great the forces and depths were. */
   forget(): void {
-    this.most = 0;
+    this.most = this.bottom = 0;
+  }
+
+  /** Bands and axis go as deep as the scene's layers, the needle and the goal: the tissue behind has no end. */
+  private deepen({ attempt, bands, goal }: Shown): void {
+    const bottom = bands.at(-1)?.bottom ?? 10;
+    if (bottom !== this.bottom) this.bottom = this.deep = bottom;
+    const needed = Math.max(attempt.deepest, goal && Number.isFinite(goal.bottom) ? bandOf(goal)[1] : 0);
+    this.deep = endOf(this.deep, needed);
   }
 
   /**
-   * Puts buttons in a column on the right, none over another, each with a line to its place on the curve: force in N,
-   * depth in mm.
+   * Puts buttons in a column on the right, none over another, each with a line to its place on the curve. Those of the
+   * last pops, if there is no room for all.
    */
-  place(buttons: readonly { readonly button: HTMLElement; readonly force: number; readonly depth: number }[]): void {
+  place(buttons: readonly Mark[]): void {
     const { pen, theme } = this;
     if (!theme) return;
-    const high = Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
-    const colour = colourOf(theme, 1);
+    const { classList } = this.marks;
+    for (const { button } of buttons) button.hidden = false;
+    classList.remove("many");
+    const tall = (): number => Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
+    const fit = (): number => Math.floor(this.height / (tall() + 2));
+    classList.toggle("many", fit() < buttons.length); // one line each
+    for (const { button } of buttons.slice(0, Math.max(0, buttons.length - fit()))) button.hidden = true;
+    this.draw(
+      buttons.filter(({ button }) => !button.hidden),
+      tall(),
+      pen,
+      colourOf(theme, 1),
+      theme,
+    );
+  }
+
+  private draw(buttons: readonly Mark[], high: number, pen: CanvasPen, colour: string, theme: Theme): void {
     const middles = apart(
       buttons.map(({ depth }) => this.depth(depth)),
       high + 2,
@@ -135,15 +171,14 @@ export class CurvePicture {
       this.depth = (mm) => beside.scale.px(mm) - beside.top;
       return;
     }
-    const deep = bands.at(-1)?.bottom ?? 10;
+    const { deep } = this;
     const from = (TOP + 2) * this.letter;
     this.depth = (mm) => from + (mm / deep) * (this.height - EDGE - from);
   }
 
   /** The tissue and the trail of the view follow the needle, and would come under the numbers and the curve. */
-  private drawGround(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, height, depth, letter } = this;
-    const deep = bands.at(-1)?.bottom ?? 10;
+  private drawGround(theme: Theme): void {
+    const { pen, width, height, depth, letter, deep } = this;
     // The numbers of the force stand above the skin.
     this.axis = Math.max(TOP * letter, Math.min(depth(0) - 2 * letter, height));
     const top = this.axis - TOP * letter;
@@ -152,7 +187,7 @@ export class CurvePicture {
 
   private drawBands(bands: readonly Band[], theme: Theme): void {
     const { pen, width, depth } = this;
-    for (const { tone, membrane, top, bottom } of bands) {
+    for (const { tone, membrane, top, bottom } of this.toEnd(bands)) {
       const high = Math.max(2, depth(bottom) - depth(top));
       const colour = tone
         ? `rgb(${tone.map(Math.round).join(" ")})`
@@ -163,9 +198,12 @@ export class CurvePicture {
     }
   }
 
+  private toEnd(bands: readonly Band[]): readonly Band[] {
+    return bands.map((band, i) => (i === bands.length - 1 ? { ...band, bottom: this.deep } : band));
+  }
+
   private drawAxes(bands: readonly Band[], theme: Theme): void {
-    const { pen, width, height, force, depth, letter, axis } = this;
-    const deep = bands.at(-1)?.bottom ?? 10;
+    const { pen, width, height, force, depth, letter, axis, deep } = this;
     const quiet = { colour: theme.quiet, size: letter - 1 } as const;
     const skin = depth(0);
     const end = Math.min(height, depth(deep));
@@ -180,8 +218,8 @@ export class CurvePicture {
       });
       if (x < width - 14) pen.text(x, axis - 0.7 * letter, label(value, step), { ...quiet, anchor: "middle" });
     }
-    pen.text(AXIS, axis - 2 * letter, "felt force, N", { ...quiet, colour: theme.text });
-    pen.text(2, skin - letter, "depth, mm", { ...quiet, colour: theme.text });
+    pen.text(AXIS, axis - 2 * letter, "felt force (N)", { ...quiet, colour: theme.text });
+    pen.text(2, skin - letter, "depth (mm)", { ...quiet, colour: theme.text });
     const down = niceStep(deep, Math.max(2, (depth(deep) - skin) / 44));
     for (const value of ticks(0, deep, down)) {
       const y = Math.round(depth(value)) + 0.5;
@@ -190,8 +228,10 @@ export class CurvePicture {
       pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
     }
     // Of the layers, on the left, where only a force that pulls is drawn; over the lines.
-    for (const { name, y } of placedNames(bands, depth, letter, height - EDGE))
-      pen.text(AXIS + 6, y, name, { colour: theme.text, size: letter - 1, halo: theme.panel });
+    for (const { name, y } of placedNames(this.toEnd(bands), depth, letter, height - EDGE)) {
+      const text = shortened(name, force.px(0) - AXIS - 2 * NAME_EDGE, letter - 1);
+      pen.text(AXIS + NAME_EDGE, y, text, { colour: theme.text, size: letter - 1, halo: theme.panel });
+    }
   }
 
   private drawNew({ path }: Attempt, theme: Theme): void {
@@ -207,11 +247,11 @@ export class CurvePicture {
     pen.within(AXIS, axis, width - AXIS, height - axis, () => pen.line(piece, { colour: theme.text, width: 2.5 }));
   }
 
-  private drawGoal({ goal, bands }: Shown): void {
+  private drawGoal({ goal, marksGoal }: Shown): void {
     const { style } = this.goal;
-    this.goal.hidden = goal === null;
-    if (!goal) return;
-    const [top, bottom] = bandOf(goal).map((mm) => this.depth(Math.min(mm, bands.at(-1)?.bottom ?? mm)));
+    this.goal.hidden = goal === null || !marksGoal;
+    if (!goal || !marksGoal) return;
+    const [top, bottom] = bandOf(goal).map((mm) => this.depth(Math.min(mm, this.deep)));
     const words = `Goal: ${goal.name}`;
     if (this.goal.textContent !== words) this.goal.textContent = words;
     style.left = `${AXIS}px`;
@@ -230,6 +270,18 @@ export class CurvePicture {
   }
 }
 
+/** A name that has so much room, px, to the left of the curve. */
+export function shortened(name: string, room: number, size: number): string {
+  const most = Math.max(3, Math.floor((1.1 * room) / textWidth("a", size))); // that width is rather too large
+  if (name.length <= most) return name;
+  const number = /\s*\d+$/.exec(name)?.[0] ?? ""; // tells it from the others
+  return `${name.slice(0, Math.max(1, most - 1 - number.length)).trimEnd()}…${number}`;
+}
+
+/** How deep bands and axis go, mm, if they must go so deep: in steps, because all is drawn anew at each. */
+export const endOf = (deep: number, needed: number): number =>
+  needed > deep ? Math.max(1.05 * needed, 1.2 * deep) : deep;
+
 /**
  * The names of the layers with their heights. Each is at its own layer, at most half a letter away; where there is no
  * room for that, the names of the thinnest layers are left out.
@@ -247,7 +299,14 @@ export function placedNames(
     const placed = apart(wanted, letter + 1, [Number.NEGATIVE_INFINITY, lowest]);
     if (named.every((band, i) => Math.abs(placed[i]! - wanted[i]!) <= Math.max(letter, high(band)) / 2))
       return named.map(({ name }, i) => ({ name, y: placed[i]! }));
-    const thinnest = named.reduce((a, b) => (high(b) < high(a) ? b : a));
-    named = named.filter((band) => band !== thinnest);
+    // Of layers that are as thin, the one that stands closest to its neighbours: so every second one goes, and so on.
+    const thin = Math.min(...named.map(high)) + 0.5;
+    const room = (i: number): number =>
+      (wanted[i + 1] ?? Number.POSITIVE_INFINITY) - (wanted[i - 1] ?? Number.NEGATIVE_INFINITY);
+    const least = named.reduce(
+      (a, band, i) => (high(band) <= thin && room(i) < room(a) ? i : a),
+      named.findIndex((band) => high(band) <= thin),
+    );
+    named = named.filter((_, i) => i !== least);
   }
 }

@@ -17,6 +17,7 @@ interface Words {
 export class Sentence {
   private readonly progress = new Progress();
   private readonly learnt = remembered("tour") !== null; // in an earlier visit
+  private ended: number | null = null; // the history's generation in which all was done
 
   constructor(private readonly app: App) {}
 
@@ -36,7 +37,10 @@ export class Sentence {
     if (app.live.history.length) progress.follow(app.live);
     const all = progress.done === TASKS.length;
     if (all && remembered("tour") === null) remember("tour", "seen");
+    if (all) this.ended ??= app.live.history.generation;
+    const over = this.ended !== null && (progress.inside || this.ended !== app.live.history.generation);
     const exercise = app.exercise.value;
+    if (app.connection.value.state !== "open" && app.engine.studio) return handOf(app).barred.value ?? "";
     if (excerpt)
       return excerpt.event
         ? `The pop of the ${excerpt.event.name}, slowly.`
@@ -49,7 +53,7 @@ export class Sentence {
     if (barred && !watches) return barred;
     if (exercise?.running) return exercise.instruction;
     if (watches) return place(bands, now) || { text: barred, takeOver: true };
-    if (!this.learnt && !(all && progress.inside)) return instruction(progress, skin, simulated, true);
+    if (!this.learnt && !over) return instruction(progress, skin, simulated, true);
     return place(bands, now) || instruction(FRESH, skin, simulated);
   }
 }

@@ -1,13 +1,14 @@
 import { takeControl } from "../controls/control_line.ts";
-import { fixedNumber, newton } from "../format.ts";
+import { fixedNumber, newton, unbroken } from "../format.ts";
 import { handOf } from "../hand/hand.ts";
 import { button, element, everyFrame, type Panel } from "../panel.ts";
 import { leaveExcerpt, SHOW_AGAIN, showAgain } from "../pop/again.ts";
 import { type DepthScale, type Framing, type Free, framingOf } from "../scene/framing.ts";
 import type { App } from "../state/app.ts";
 import type { History } from "../state/history.ts";
+import { cutJustNow, cutSentence } from "../state/limits.ts";
 import { pageOf, show } from "../state/page.ts";
-import { feltDropText, feltForce, scaleOf } from "../state/scale.ts";
+import { feltDropText, feltShareText, scaleOf } from "../state/scale.ts";
 import type { Source } from "../state/source.ts";
 import { type Band, bandsOf } from "../tissue/bands.ts";
 import { asTissue } from "../tissue/layers.ts";
@@ -30,6 +31,7 @@ export const stage: Panel = (root, app) => {
   const force = element("output", { class: "stage-number" });
   const name = element("span", { class: "stage-name" });
   const syringe = element("span", { class: "stage-name" });
+  const cut = element("span", { class: "stage-cut" });
   const free = element("div", { class: "stage-free", "aria-hidden": "true" });
   const curve = new CurvePicture();
   const hold = button("Pause", "The picture stands still; the run goes on", () => {
@@ -54,7 +56,7 @@ export const stage: Panel = (root, app) => {
     { class: "stage", "aria-label": "Stage" },
     element("h1", { class: "only-read" }, "Punctura"),
     element("div", { class: "stage-words" }, words, take),
-    element("div", { class: "stage-force" }, force, name, syringe),
+    element("div", { class: "stage-force" }, force, name, syringe, cut),
     free,
     curve.root,
     buttons,
@@ -119,8 +121,8 @@ export const stage: Panel = (root, app) => {
       const attempt = attempts.shown();
       const most = ROOM * Math.max(strongestAt(source.value, tick), attempt.most);
       const beside = besideOf(framing.depths.value, view, curve.root);
-      const goal = picture.hidden ? app.goal.value : null;
-      const anew = curve.show({ attempt, bands, most, beside, now, goal });
+      const goal = app.goal.value;
+      const anew = curve.show({ attempt, bands, most, beside, now, goal, marksGoal: picture.hidden !== false });
       marks.show(attempt, anew);
     }
     if (time - wordsAt < WORDS_MS) return;
@@ -129,9 +131,11 @@ export const stage: Panel = (root, app) => {
     write(words, text);
     take.hidden = !takeOver;
     write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
-    write(name, tick === null ? "" : feltForce(scaleOf(source.value)));
+    write(name, tick === null ? "" : feltShareText(scaleOf(source.value)));
     const told = built?.syringe && tick !== null && !app.blind;
     write(syringe, told ? injectedText(source.value.history, tick) : "");
+    const cutAt = source.value.live ? cutJustNow(app.live.history) : null;
+    write(cut, cutAt === null ? "" : unbroken(cutSentence(app.live.history, cutAt)));
   });
 };
 
@@ -230,7 +234,8 @@ class Marks {
         title: SHOW_AGAIN,
         onclick: () => showAgain(this.app, event),
       },
-      element("span", { class: "only-read" }, `${event.name}, pop `),
+      // The first one says what they are; there is no room for the name at each.
+      element("span", { class: this.known.size ? "only-read" : "stage-pop" }, `Pop: ${event.name} `),
       element("span", {}, drop),
       element("span", { class: "stage-slowly" }, "again, slowly"),
     );

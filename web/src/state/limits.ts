@@ -26,6 +26,23 @@ export function lastCut(history: History, first: number): number | null {
   return null;
 }
 
+const HELD = 800; // ticks: a cut is told for this long, so that it can be read
+
+/** The last tick in which a limit cut the force, if that was just now; null if not. */
+export const cutJustNow = (history: History): number | null => lastCut(history, history.end - HELD);
+
+const REMEDIES: Readonly<Partial<Record<Limit, string>>> = {
+  peak: "Push more gently.",
+  continuous: "Rest for some seconds, then it comes back.",
+  temperature: "Let the motors cool.",
+};
+
+/** For a learner: that a limit cut the force in a tick, why, and what to do. */
+export function cutSentence(history: History, tick: number): string {
+  const limit = limitOf(history, tick);
+  return `Force cut: ${LIMIT_WORDS[limit]}, ${cutFigures(history, tick)}. ${REMEDIES[limit] ?? ""}`.trim();
+}
+
 /** "0.76 of 2.19 N": the felt force in a tick, and what it would be without the limit. */
 export function cutFigures(history: History, tick: number): string {
   const scale = history.row("force_scale", tick)[0] ?? 1;

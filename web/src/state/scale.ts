@@ -13,6 +13,10 @@ export const scaleText = (scale: number): string =>
 /** The name of the force on the hand, with the scale if the device gives less than the model's force. */
 export const feltForce = (scale: number): string => (scale === 1 ? "felt force" : `felt force (× ${scaleText(scale)})`);
 
+/** The same for a learner: "felt force: 5.5 % of the model's". */
+export const feltShareText = (scale: number): string =>
+  scale === 1 ? "felt force" : `felt force: ${Number((100 * scale).toPrecision(2))} % of the ${MODEL_FORCE}`;
+
 /** How much of the model's force the device gives, before the limits: at the shown tick, or in the scene. */
 export function scaleOf(source: Source, tick: number | null = source.shown()): number {
   const shown = tick === null ? Number.NaN : (source.history.row("force_scale", tick)[0] ?? Number.NaN);

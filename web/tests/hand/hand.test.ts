@@ -138,7 +138,11 @@ describe("the hand", () => {
       "Another page",
     ],
     ["the device is a real one", () => hello({ ...DEVICE, simulated: false, model: "omega.3" }), "omega.3"],
-    ["the connection has gone", () => server.connection({ state: "lost", reason: "", retryInMs: 1 }), "not connected"],
+    [
+      "the connection has gone",
+      () => server.connection({ state: "lost", reason: "", retryInMs: 1 }),
+      "does not answer",
+    ],
     [
       "a recording is shown",
       () => {

@@ -96,8 +96,10 @@ it("again begins anew, once the needle is out; and so does a new run", () => {
   expect(made.attempt.path.count).toBe(0);
   ticks(made, [-1, -0.5, ...down(0.1, 1)], () => 0.4);
   expect(points(made.attempt).every(([, force]) => Math.abs(force - 0.4) < 1e-6)).toBe(true);
+  expect(made.attempt.deepest).toBeCloseTo(1, 5);
   made.source.history.clear(1);
   ticks(made, down(0, 0.1), () => 0.1);
+  expect(made.attempt.deepest).toBeCloseTo(0.1, 5);
   expect(points(made.attempt).every(([depth]) => depth < 0.11)).toBe(true);
 });
 

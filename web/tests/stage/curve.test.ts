@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { placedNames } from "../../src/stage/curve.ts";
+import { endOf, placedNames, shortened } from "../../src/stage/curve.ts";
 import type { Band } from "../../src/tissue/bands.ts";
 
 const band = (name: string, top: number, bottom: number): Band => ({ name, top, bottom, tone: null, membrane: null });
@@ -41,4 +41,24 @@ describe("the names of the layers", () => {
     const vein = walls.map((bottom, i) => band(`layer ${i}`, walls[i - 1] ?? 0, bottom));
     expect(placedNames(vein, (mm) => 6.1 * mm, 13, 92)).toHaveLength(6);
   });
+});
+
+it("of many thin layers, names are left out evenly, and each is at its own layer", () => {
+  const many = Array.from({ length: 64 }, (_, i) => band(`layer ${i + 1}`, i, i + 1));
+  const shown = placedNames(many, (mm) => 4.3 * mm, 13, 300).map(({ name }) => Number(name.slice(6)));
+  const steps = shown.slice(1).map((number, i) => number - shown[i]!);
+  expect(shown.length).toBeGreaterThan(10);
+  expect([Math.min(...steps) >= 2, Math.max(...steps) <= 8]).toEqual([true, true]);
+});
+
+it("a name that would lie under the curve is shortened", () => {
+  expect(shortened("skin", 90, 12)).toBe("skin");
+  expect(shortened("interspinous ligament", 90, 12)).toBe("interspinous…");
+  expect(shortened("layer number 12", 90, 12)).toBe("layer num… 12");
+});
+
+it("bands and axis go as deep as the needle and the goal, in steps", () => {
+  expect([endOf(6, 0), endOf(6, 6)]).toEqual([6, 6]);
+  expect(endOf(6, 6.1)).toBeCloseTo(7.2, 9);
+  expect(endOf(6, 12)).toBeCloseTo(12.6, 9);
 });

@@ -1,9 +1,13 @@
 import { beforeEach, expect, it, vi } from "vitest";
+import type { Progress } from "../../src/controls/tour/progress.ts";
 import type { EngineListener } from "../../src/engine/engine.ts";
 import { Sentence } from "../../src/stage/sentence.ts";
 import { App } from "../../src/state/app.ts";
+import { Source } from "../../src/state/source.ts";
 import type { Band } from "../../src/tissue/bands.ts";
 import type { ExerciseStatus, Hello } from "../../src/wire/messages.ts";
+import { codeOf } from "../../src/wire/ticks.ts";
+import { batch } from "../support/fill_history.ts";
 
 vi.stubGlobal("document", { cookie: "" });
 
@@ -44,7 +48,37 @@ it("tells who could move the needle, and that the studio is gone", () => {
     app.sitting.value = session as never;
     server.connection({ state: "open" });
     if (session) expect(sentence.words([SKIN], null).text).toBe("Push.");
-    server.connection({ state: "closed", retry: 0 } as never);
-    expect(sentence.words([SKIN], INSIDE).text).toBe(session?.gone ?? "The studio is not connected.");
+    server.connection({ state: "lost", reason: "", retryInMs: 250 });
+    expect(sentence.words([SKIN], INSIDE).text).toBe(
+      session?.gone ??
+        "The studio does not answer. If its program has ended, start it again (./run); " +
+          "else this page connects by itself.",
+    );
   }
+});
+
+it("says that the run goes on only while it does, and what to do when it is refused", () => {
+  const sentence = new Sentence(app);
+  control(true, 1);
+  app.source.value = new Source("Paused", false, 10, null, true);
+  expect(sentence.words([SKIN], INSIDE).text).toBe("Paused; the run goes on.");
+  server.connection({ state: "lost", reason: "", retryInMs: 250 });
+  expect(sentence.words([SKIN], INSIDE).text).toContain("The studio does not answer.");
+  server.connection({ state: "refused", reason: "This needs the token" });
+  expect(sentence.words([SKIN], INSIDE).text).toBe("This needs the token. Open the address that the studio prints.");
+});
+
+it("says that the tour is at its end in the run in which it ended, and in no later one", () => {
+  const sentence = new Sentence(app);
+  control(true, 1);
+  const { live } = app;
+  const outside = (from: number): void =>
+    live.history.push(batch(from, 2, 1, { phase: () => [codeOf("phase", "outside")] }));
+  outside(0);
+  sentence.words([SKIN], null);
+  Object.assign((sentence as unknown as { progress: Progress }).progress, { done: 4 });
+  expect(sentence.words([SKIN], null).text).toContain("That is all: the needle is out.");
+  live.history.clear(1);
+  outside(0);
+  expect(sentence.words([SKIN], null).text).toContain("push until it gives");
 });

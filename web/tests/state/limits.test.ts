@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { App } from "../../src/state/app.ts";
 import { controlWords } from "../../src/state/control.ts";
-import { cutFigures, lastCut, limitOf } from "../../src/state/limits.ts";
+import { cutFigures, cutSentence, lastCut, limitOf } from "../../src/state/limits.ts";
 import { history } from "../support/fill_history.ts";
 
 describe("the limit that cuts the force", () => {
@@ -20,6 +20,11 @@ describe("the limit that cuts the force", () => {
   });
   it("is shown with the device's force and the model's force", () => {
     expect(cutFigures(run, 50)).toBe("0.76 of 2.19 N");
+  });
+  it("is told to a learner with what to do", () => {
+    expect(cutSentence(run, 50)).toBe(
+      "Force cut: long-run limit, 0.76 of 2.19 N. Rest for some seconds, then it comes back.",
+    );
   });
 });
 

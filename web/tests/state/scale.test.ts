@@ -1,7 +1,16 @@
 import { describe, expect, it } from "vitest";
 import { popLabel } from "../../src/plots/marks.ts";
 import { cutFigures } from "../../src/state/limits.ts";
-import { fallenForce, fallOf, feltDropText, feltForce, feltShare, scaleOf, scaleText } from "../../src/state/scale.ts";
+import {
+  fallenForce,
+  fallOf,
+  feltDropText,
+  feltForce,
+  feltShare,
+  feltShareText,
+  scaleOf,
+  scaleText,
+} from "../../src/state/scale.ts";
 import { Source } from "../../src/state/source.ts";
 import type { MembraneEvent, SceneView } from "../../src/wire/messages.ts";
 import { batch } from "../support/fill_history.ts";
@@ -67,4 +76,12 @@ describe("the force scale", () => {
   it("is no cut: a cut tells the felt force, and what it would be without the limit", () => {
     expect(cutFigures(source().history, 9)).toBe("0.45 of 0.60 N");
   });
+});
+
+it("a learner reads how much of the model's force is felt", () => {
+  expect([1, 0.055, 0.3].map(feltShareText)).toEqual([
+    "felt force",
+    "felt force: 5.5 % of the model force",
+    "felt force: 30 % of the model force",
+  ]);
 });
