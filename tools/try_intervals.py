@@ -20,7 +20,7 @@ the forces of the rig that it is said to have are those that it has.
 --tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
-"still": how often the result does not say that the tissue moves; "explained": how often no other law may be better.
+"still": how often the result does not say that the tissue moves; "explained": how often the result is called so.
 --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
 it is right. --auto: the number is not given for one wall, too.
@@ -250,7 +250,7 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     _, errors = information(true, names, trace.time, trace.depth, inflated)
     rows = [
         Row("still", True, "moving_tissue" not in [cause.kind for cause in found.doubts.causes], False),
-        Row("explained", True, found.doubts.explained.whole, False),
+        Row("explained", True, found.doubts.whole, False),
     ]
     if examined:
         kinds = {one.kind for one in trace.findings}

@@ -29,7 +29,7 @@ def test_a_trace_is_dropped_identified_and_felt(page: Page, tmp_path):
     expect(dialog.get_by_role("row", name="Membrane 1: friction")).to_contain_text("0.19")
     expect(dialog).to_contain_text("insert a second time at the same place")
     expect(dialog.get_by_role("region", name="Models").get_by_role("row")).to_have_count(11)
-    expect(dialog).to_contain_text("it explains the trace best")
+    expect(dialog).to_contain_text("it fits best")
     dialog.get_by_label("Another model").select_option("dahl")
     expect(dialog.locator(".plot-legend")).to_contain_text("Dahl with viscosity")
     report = saved(page, dialog.get_by_role("button", name="Save report"), tmp_path)

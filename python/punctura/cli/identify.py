@@ -170,6 +170,8 @@ def number_of(membranes: str) -> int | Literal["auto"]:
 
 def in_words(found: Identification) -> str:
     """The result as lines for a reader."""
+    from punctura.identify.doubts import NOT_EXPLAINED
+
     lines = [
         f"{found.trace.source}: {len(found.trace)} samples, as many as {found.effective_samples:.0f} independent ones"
     ]
@@ -177,6 +179,7 @@ def in_words(found: Identification) -> str:
     lines.append(
         f"{len(found.parameters.membranes)} membrane(s), {', '.join(found.extensions) or 'K06 without extensions'}: "
         f"rms error {found.fit.rmse:.3g} N, {100 * found.fit.rmse / found.peak:.2g} % of the greatest force"
+        f"{'' if found.doubts.whole else f'; {NOT_EXPLAINED}'}"
     )
     for e in found.estimates:
         low, high = ("?" if bound is None else f"{bound:.4g}" for bound in (e.low, e.high))

@@ -20,6 +20,7 @@ from punctura.trace.ends import NO_AIR, without_zero
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
 IMPOSSIBLE = ("air_steps", NO_AIR, "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
+NOT_EXPLAINED = "not explained: see below"  # behind the error of a model that is not the whole truth
 UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 
 
@@ -27,8 +28,13 @@ UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 class Doubts:
     """Whether the model explains the trace, and what could explain what it leaves."""
 
-    explained: Explained
+    explained: Explained  # what the residuals say
     causes: tuple[Cause, ...]  # the best one first
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is said against the model. All results give this as `explained`."""
+        return not self.sentences
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -40,11 +46,15 @@ class Doubts:
         """The same doubts with this cause, from which all else in the tissue may follow."""
         return replace(self, causes=(cause, *(one for one in self.causes if one.kind in IMPOSSIBLE)))
 
+    def beside(self, *causes: Cause) -> Doubts:
+        """The same doubts, and these, which the residuals do not show."""
+        return replace(self, causes=(*self.causes, *causes))
+
     def as_dict(self) -> ExplainedRecord:
         """As plain values for JSON, SI."""
         assessment = self.explained
         return {
-            "explained": assessment.whole, "left_N": assessment.left, "noise_N": assessment.noise,
+            "explained": self.whole, "left_N": assessment.left, "noise_N": assessment.noise,
             "noise_is_of_air": assessment.air, "runs": assessment.runs, "runs_of_noise": assessment.runs_of_noise,
             "not_explained": [
                 {"way": place.kind, "insertion": place.insertion, "shallow_m": place.shallow, "deep_m": place.deep,

@@ -10,10 +10,12 @@ from punctura import Needle, Scene
 from punctura._core import longest_name
 from punctura.files.names import as_text
 from punctura.identify.air_noise import AirNoise
+from punctura.identify.causes import Cause
 from punctura.identify.choose import choose
 from punctura.identify.criteria import Candidate
 from punctura.identify.depth_noise import noise_not_used, with_quiet_depth
 from punctura.identify.doubts import Doubts, doubts
+from punctura.identify.drifting import slow_misfit
 from punctura.identify.explained import explained
 from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.growing_noise import with_growing_noise
@@ -39,9 +41,11 @@ from punctura.trace import Segments, Trace, TraceError, segment
 
 MOST_MEMBRANES = 6
 BETTER_OPTIMA = 5  # that the intervals may meet, each one better than the one before; then they end as they are
-MORE_OPTIMA = (
+MORE_OPTIMA = Cause(
+    "more_optima",
+    0.0,
     "The search for the intervals met parameters that explain the trace better than the fit, also after new fits from "
-    "there. Do not trust the values: the trace holds too little for so many parameters, or the model is wrong."
+    "there. Do not trust the values: the trace holds too little for so many parameters, or the model is wrong",
 )
 ENDED = (
     "The search for a model ended before it had tried all: no short one explains the trace. State what is known, such "
@@ -60,7 +64,7 @@ class Identification:
     verdicts: tuple[str, ...]
     candidates: tuple[Candidate, ...]  # the chosen model first
     effective_samples: float  # how many independent samples the noise leaves
-    doubts: Doubts  # signs that the model does not explain the trace
+    doubts: Doubts  # all that says that the model is not the whole truth
     rig: tuple[RigValue, ...] = ()  # the errors of the rig that the fit and its intervals take into account
 
     @property
@@ -185,7 +189,8 @@ def _identified(
     moving = moving_tissue(trace, choice.plain.fit, choice.current.fit, doubt.explained)
     doubt = doubt if moving is None else doubt.by(moving)
     whitened = final.misfit.whitening is not None
-    advice = verdicts(found, trace, segments, few_fit, choice.search.rule.air, doubt.explained.ok, whitened)
+    of_few = few_fit, choice.search.rule.air, doubt.explained.ok
+    advice = verdicts(found, trace, segments, *of_few, whitened)
     advice = (
         *smeared_words(given, trace),
         *noise_not_used(trace, rig.depth_noise),
@@ -193,8 +198,9 @@ def _identified(
         *not_told_apart(choice.search, choice.current),
         *advice,
     )
-    advice = (*doubt.sentences, *doubt_of_needle(found, needle, rig), *advice)
-    advice += (*([MORE_OPTIMA] if more else []), *([ENDED] if choice.search.ended else []))
+    searched = [MORE_OPTIMA] if more else []
+    doubt = doubt.beside(*doubt_of_needle(found, needle, rig), *slow_misfit(*of_few), *searched)
+    advice = (*doubt.sentences, *advice, *([ENDED] if choice.search.ended else []))
     found = with_subtracted(found, trace)
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from punctura import Needle
+from punctura.identify.causes import Cause
 from punctura.identify.fit import Fit, Misfit, fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import Free, Parameters
@@ -34,8 +35,8 @@ def with_tolerance(found: Sequence[Estimate], of: Fit, rig: Rig) -> tuple[Estima
     return tuple(found)
 
 
-def doubt_of_needle(found: Sequence[Estimate], needle: Needle, rig: Rig) -> tuple[str, ...]:
-    """One sentence, if the tip length that fits is not that of any needle within the tolerances."""
+def doubt_of_needle(found: Sequence[Estimate], needle: Needle, rig: Rig) -> tuple[Cause, ...]:
+    """One cause, if the tip length that fits is not that of any needle within the tolerances."""
     diameters, angles = (
         [value, value - tolerance, value + tolerance]
         for value, tolerance in (
@@ -48,11 +49,12 @@ def doubt_of_needle(found: Sequence[Estimate], needle: Needle, rig: Rig) -> tupl
     if one is None or one.low is None or one.high is None:
         return ()
     if max(tips) < one.low or min(tips) > one.high:
-        return (
+        text = (
             f"A tip length of {one.value * 1e3:.3g} mm [{one.low * 1e3:.3g}, {one.high * 1e3:.3g}] fits, and that of "
             f"the stated needle is {tips[0] * 1e3:.3g} mm. If its diameter or its angle is stated wrongly, the "
-            "intervals do not hold: measure them, or state a tolerance (--needle diameter_mm=1.27+-0.03).",
+            "intervals do not hold: measure them, or state a tolerance (--needle diameter_mm=1.27+-0.03)"
         )
+        return (Cause("needle", 0.0, text),)
     return ()
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from punctura.extras import optional
 from punctura.files.names import as_text
+from punctura.identify.doubts import NOT_EXPLAINED
 from punctura.identify.identify import Identification
 from punctura.identify.records import IdentificationRecord
 
@@ -29,6 +30,7 @@ def report_html(found: Identification) -> bytes:
         f"{record['membranes']} membrane(s), {', '.join(record['extensions']) or 'K06 without extensions'}; rms error "
         f"{record['rmse_N']:.3g} N, {100 * record['rmse_share_of_peak']:.2g} % of the greatest force; "
         f"{record['samples']} samples, as many as {record['effective_samples']:.0f} independent ones"
+        f"{'' if found.doubts.whole else f'; {NOT_EXPLAINED}'}"
     )
     page = (
         f"<!doctype html><html lang=en><meta charset=utf-8><title>Identification</title><style>{_STYLE}</style>"

@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from punctura._core import tip_length
 from punctura.identify.air_noise import AirNoise
-from punctura.identify.explained import SEEN
+from punctura.identify.drifting import slow_words
 from punctura.identify.fit import Fit
 from punctura.identify.intervals import Estimate
 from punctura.identify.parameters import kind_of
@@ -64,11 +62,6 @@ _EXPERIMENTS: dict[str, tuple[tuple[str, str], ...]] = {
 }
 LONG, VERY_LONG = 10.0, 60.0  # s, of a hold
 
-PERIODS, FINE = 3, 4  # of a sine in the trace, at least; rates for each period more
-ONE_SINE = 0.6  # of the squares beside white noise: a random walk has up to 0.4 in one sine
-TOLD = 3.0  # standard deviations of slow noise: a wall that adds less is like one of its swings
-DRIFTING = 1.5  # times the other noise: with more slow noise, intervals of least squares are too narrow
-
 
 def verdicts(
     estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit, air: AirNoise, explained: bool = True,
@@ -85,7 +78,7 @@ def verdicts(
         *_cable(trace),
         *unknown,
         *_not_seen(trace, segments),
-        *_drifting(fit, air, explained, whitened),
+        *slow_words(fit, air, explained, whitened),
     )
 
 
@@ -109,51 +102,6 @@ def _cable(trace: Trace) -> Iterator[str]:
             "tissue. A soft layer that springs back looks the same in air, and deeper in it may not go on so: then the "
             "intervals do not hold. To tell: move over the same depths in air without tissue."
         )
-
-
-def _drifting(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iterator[str]:
-    slow, other = fit.noise.slow_and_white()
-    slow = min(slow, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
-    if not explained or slow <= DRIFTING * other or slow <= SEEN * float(np.max(np.abs(fit.misfit.trace.force))):
-        return
-    if (swing := _swing(fit, other)) is not None:
-        size, rate = swing
-        yield (
-            f"The measured force swings about the model by ±{size:.2g} N, {rate:.2g} times a second, as the hum of the "
-            "mains does where it is sampled slowly. The fit takes it for slow noise, so the intervals may be wrong. To "
-            "tell: sample at 500 Hz or more, or filter the force before it is sampled."
-        )
-        return
-    steps = any(finding.kind == "air_steps" for finding in fit.misfit.trace.findings)  # so it may be no drift
-    if air.allows(*fit.noise.most_likely()) and not steps:
-        yield (
-            f"The measured force drifts slowly about the model, by {slow:.2g} N. A wall that adds less than "
-            f"{TOLD * slow:.2g} N, {TOLD:g} times as much, cannot be told from that. "
-            + (
-                "The fit takes it into account, but the interval of a surface is too narrow. "
-                if whitened
-                else "The intervals are then too narrow. "
-            )
-            + "If the model is right (see punctura rivals), this is a drift of the sensor: let it warm up, record a "
-            "second before contact, and repeat the insertion."
-        )
-    else:
-        yield (
-            f"The model misses the measured force by {fit.rmse:.2g} N, in long stretches. "
-            + ("" if steps else "This is no drift of the sensor, whose force in air does not show it. ")
-            + "Do not trust the intervals."
-        )
-
-
-def _swing(fit: Fit, other: float) -> tuple[float, float] | None:
-    """Size, N, and rate, Hz, of a sine that is most of the residuals beside the other noise, N; None if none is."""
-    time, left = fit.misfit.trace.time, fit.misfit.forces(fit.parameters) - fit.misfit.trace.force
-    if time is None:
-        return None
-    rates = np.arange(FINE * PERIODS, FINE * len(time) // 4) / (FINE * float(np.ptp(time)))
-    waves = np.abs([np.exp(-2j * np.pi * rate * (time - time[0])) @ left for rate in rates])
-    size, rate = 2 * float(waves.max(initial=0.0)) / len(time), float(rates[int(np.argmax(waves))])
-    return (size, rate) if size**2 / 2 > ONE_SINE * (float(np.var(left)) - other**2) else None
 
 
 def _not_identifiable(estimates: Sequence[Estimate], trace: Trace, segments: Segments, fit: Fit) -> Iterator[str]:

@@ -82,6 +82,7 @@ def fit_line(found: Identification) -> FitLine:
         extensions=list(found.extensions),
         rmse=found.fit.rmse,
         rmse_share=found.fit.rmse / found.peak,
+        explained=found.doubts.whole,
         effective_samples=found.effective_samples,
         curves=_curves(found.trace, found.fit.misfit.forces(found.parameters)),
         estimates=[

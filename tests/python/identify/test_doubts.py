@@ -6,15 +6,19 @@ from dataclasses import replace
 import numpy as np
 import punctura as pn
 import pytest
+from punctura.cli.identify import in_words
+from punctura.identify import identify
 from punctura.identify.air_noise import AirNoise
-from punctura.identify.causes import both_ways, way_out
-from punctura.identify.doubts import doubts
+from punctura.identify.causes import Cause, both_ways, way_out
+from punctura.identify.doubts import NOT_EXPLAINED, doubts
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import Estimate, estimates
 from punctura.identify.model import Model
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
+from punctura.identify.report import report_html
 from punctura.identify.verdict import verdicts
 from punctura.identify.walls import without_a_wall
+from punctura.studio.trace_lines import fit_line
 from punctura.trace import Trace, segment
 from punctura.trace.findings import examine
 from traces import MEMBRANE, NEEDLE, RATE, force_of, motion, trace
@@ -177,6 +181,7 @@ def test_a_way_out_that_a_wall_which_is_not_there_explains_is_named_nevertheless
     left = replace(found, misfit=there, residuals=smooth - made.force)
     verdict = doubts(made, segment(made), left, ("tail",))
     assert verdict.explained.ok and [cause.kind for cause in verdict.causes] == ["asymmetric_way_out"]
+    assert not verdict.as_dict()["explained"]
     assert "do not trust its walls" in verdict.sentences[0]
     assert doubts(made, segment(made), left, ("set",)).causes == ()
 
@@ -207,10 +212,20 @@ def test_a_wall_that_cannot_be_there_is_named_and_one_beyond_is_left_out_first(p
     whole = fit(Misfit(made, two), ("offset",), two)
     assert kind in [one.kind for one in doubts(made, segment(made), whole, ()).causes]
     begun = replace(segment(made), contact=None)  # the air behind the way out tells it, too
-    assert kind in [one.kind for one in doubts(made, begun, whole, ()).causes]
+    doubted = doubts(made, begun, whole, ())
+    assert kind in [one.kind for one in doubted.causes] and not doubted.as_dict()["explained"]
     if kind == "wall_beyond":
         (fewer,) = without_a_wall(whole, segment(made))
         assert np.array_equal(fewer.membranes, start.membranes)
+
+
+@pytest.mark.parametrize("causes", [(), (Cause("wall_in_air", 0.0, "The model has 0.1 N of tissue in air"),)])
+def test_text_json_report_and_page_agree_on_what_is_explained(causes):
+    found = identify(trace(noise=8e-3)[::4], NEEDLE, 1)
+    found = replace(found, doubts=found.doubts.beside(*causes))
+    said = [NOT_EXPLAINED in text for text in (in_words(found), report_html(found).decode())]
+    said += [not found.as_dict()["explained"]["explained"], not fit_line(found).explained]
+    assert said == [bool(causes)] * 4
 
 
 def test_the_command_names_it_and_draws_it(punctura, tmp_path):

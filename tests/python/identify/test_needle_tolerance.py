@@ -57,7 +57,9 @@ def test_a_bound_widens_also_where_the_other_one_is_not_known():
 def test_a_needle_that_is_stated_wrongly_is_doubted(factor):
     trace, needle, _ = TOOL["random_trace"](2, TOOL["Conditions"](machine=True))
     stated = Needle(needle.diameter * factor, needle.tip_angle)
-    doubts = [one for one in identify(trace, stated, 1).verdicts if "the stated needle" in one]
+    found = identify(trace, stated, 1)
+    doubts = [one for one in found.verdicts if "the stated needle" in one]
+    assert not found.as_dict()["explained"]["explained"]
     assert len(doubts) == 1 and f"{1e3 * factor * tip_of(needle):.3g} mm" in doubts[0]
     assert not any("the stated needle" in one for one in identify(trace, needle, 1).verdicts)
 

@@ -110,6 +110,7 @@ class FitLine(Part):
     extensions: list[str]  # of K06
     rmse: Finite  # N
     rmse_share: Finite  # of the peak
+    explained: bool  # nothing says that the model is not the whole truth
     effective_samples: Finite  # as many independent samples tell as much
     curves: CurvesPart
     estimates: list[EstimatePart]

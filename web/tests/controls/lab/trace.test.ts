@@ -156,15 +156,15 @@ describe("the result in words", () => {
     );
   });
 
-  it("says how well K06 follows the trace, and which model explains it best, also where that is another", () => {
-    expect(fitWords({ membranes: 1, extensions: [], rmse: 0.01, rmse_share: 0.0119 })).toBe(
+  it("says how well K06 follows the trace, and which model fits best, also where that is another", () => {
+    expect(fitWords({ membranes: 1, extensions: [], rmse: 0.01, rmse_share: 0.0119, explained: true })).toBe(
       "K06 with one membrane follows the force to 10 mN rms, 1.2 % of its peak.",
     );
-    expect(fitWords({ membranes: 2, extensions: ["tail"], rmse: 0.2, rmse_share: 0.05 })).toContain(
-      "K06 with tail and 2",
-    );
-    expect(rankWords({ rows: [rival("K06", -9, true), rival("Dahl", -5)] })).toContain("Of 2 models it explains");
-    expect(rankWords({ rows: [rival("Dahl", -9), rival("K06", -5, true)] })).toMatch(/^Dahl explains the trace better/);
+    const wrong = fitWords({ membranes: 2, extensions: ["tail"], rmse: 0.2, rmse_share: 0.05, explained: false });
+    expect(wrong).toContain("K06 with tail and 2");
+    expect(wrong).toContain("of its peak, but does not explain the trace: see below.");
+    expect(rankWords({ rows: [rival("K06", -9, true), rival("Dahl", -5)] })).toContain("Of 2 models it fits best");
+    expect(rankWords({ rows: [rival("Dahl", -9), rival("K06", -5, true)] })).toMatch(/^Dahl fits better/);
     expect(rankWords({ rows: [rival("K06", null, true), rival("Dahl", null)] })).toBe("");
   });
 });

@@ -86,14 +86,15 @@ const newtons = (force: number): string =>
   force < 0.1 ? `${(1e3 * force).toPrecision(2)} mN` : `${force.toFixed(2)} N`;
 
 /** How well the model explains the trace, in one sentence. */
-export function fitWords(fit: Pick<FitLine, "membranes" | "extensions" | "rmse" | "rmse_share">): string {
+export function fitWords(fit: Pick<FitLine, "membranes" | "extensions" | "rmse" | "rmse_share" | "explained">): string {
   const more = fit.extensions.length ? `${fit.extensions.join(", ")} and ` : "";
   const walls = fit.membranes === 1 ? "one membrane" : `${fit.membranes} membranes`;
   const error = `${newtons(fit.rmse)} rms, ${percent(fit.rmse_share)} of its peak`;
-  return `K06 with ${more}${walls} follows the force to ${error}.`;
+  const but = fit.explained ? "" : ", but does not explain the trace: see below";
+  return `K06 with ${more}${walls} follows the force to ${error}${but}.`;
 }
 
-/** Whether another model explains the trace better, in one sentence. */
+/** Whether another model fits better, in one sentence. */
 export function rankWords({ rows }: Pick<RivalsLine, "rows">): string {
   const own = rows.filter(({ own }) => own).sort((a, b) => (a.aic ?? Infinity) - (b.aic ?? Infinity))[0];
   const others = rows.filter((row) => !row.own && row.aic !== null);
@@ -101,7 +102,7 @@ export function rankWords({ rows }: Pick<RivalsLine, "rows">): string {
   if (!own || own.aic === null || !best) return "";
   if (own.aic <= best.aic!) {
     const next = `next is ${best.title} with ${percent(best.rmse_share)}`;
-    return `Of ${others.length + 1} models it explains the trace best; ${next}.`;
+    return `Of ${others.length + 1} models it fits best; ${next}.`;
   }
-  return `${best.title} explains the trace better, with ${percent(best.rmse_share)}: see the table of the models.`;
+  return `${best.title} fits better, with ${percent(best.rmse_share)}: see the table of the models.`;
 }
