@@ -2,7 +2,7 @@
 
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--growing 0]
-        [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--slide 0] [--presliding 0] [--cable 0] [--examined]
+        [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--slide 0] [--presliding 0] [--cable 0] [--examined] [--air]
         [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
@@ -20,10 +20,12 @@ the forces of the rig that it is said to have are those that it has.
 --tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
-"still": how often the result does not say that the tissue moves; "explained": how often the result is called so.
+"still": how often the result does not say that the tissue moves; "explained": how often the result is called so;
+"law": how often there is a result at all.
 --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
-it is right. --auto: the number is not given for one wall, too.
+it is right. --air: the needle touches nothing, and there should be no law. --auto: the number is not given for
+one wall, too.
 
 An interval of 95 % should hold the truth in 93 to 97 % of the cases. "hidden": even an ideal interval is too wide to
 tell the parameter. First, the Fisher information at the truth says that it spans a factor of 100 or more. Second, the
@@ -63,7 +65,7 @@ AIR = 2e-3  # m, in front of the first surface
 THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
 WALK = 10.0  # s, after which --walk is reached
 SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
-WHOLE = ("rig", "still", "explained", "walls", "warned")  # rows that are of the whole result
+WHOLE = ("law", "rig", "still", "explained", "walls", "warned")  # rows that are of the whole result
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
@@ -97,6 +99,7 @@ class Conditions:
     presliding: float = 0.0
     cable: float = 0.0
     examined: bool = False
+    air: bool = False
     tolerance: float = 0.0
     wrong: float = 0.0
     walls: int = 1
@@ -155,7 +158,7 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
         strokes = Strokes((0, AIR, 0), (0, -deepest, 0), count=1, duration=2.0, rest=0.4, variation=0)
         ticks = Experiment(scene, strokes, seed=seed).run(strokes.duration_for(seed))
         time, depth, force = ticks.time, AIR - np.asarray(ticks.position[:, 1]), np.asarray(ticks.force[:, 1])
-    force = force + given.slide * slid(depth, given.presliding) + given.cable * (depth - depth[0])
+    force = force * (not given.air) + given.slide * slid(depth, given.presliding) + given.cable * (depth - depth[0])
     force, time, depth = through_sensor(force, given)[every], time[every], depth[every]
     if given.inward:
         force, time, depth = (column[: int(np.argmax(depth)) + 1] for column in (force, time, depth))
@@ -242,13 +245,17 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     stated = pn.Needle(needle.diameter * (1 + share), needle.tip_angle)
     known = Rig(diameter_tolerance=given.tolerance * needle.diameter)
     chosen = given.auto or given.walls > 1
-    found = identify(trace, stated, membranes="auto" if chosen else 1, rig=known)
+    try:
+        found = identify(trace, stated, membranes="auto" if chosen else 1, rig=known)
+    except TraceError:  # no contact that noise does not explain
+        return [Row("law", True, False, False)]
     true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0)).with_values(truth)
     names = [*truth, "offset"]
     assert trace.time is not None
     inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
     rows = [
+        Row("law", True, True, False),
         Row("still", True, "moving_tissue" not in [cause.kind for cause in found.doubts.causes], False),
         Row("explained", True, found.doubts.whole, False),
     ]
@@ -302,6 +309,7 @@ def main() -> None:
     parser.add_argument("--machine", action="store_true", help="moved at one speed")
     parser.add_argument("--inward", action="store_true", help="end at the greatest depth")
     parser.add_argument("--examined", action="store_true", help="as one from a file is")
+    parser.add_argument("--air", action="store_true", help="the needle touches nothing")
     parser.add_argument("--walls", type=int, default=1)
     parser.add_argument("--auto", action="store_true", help="the number of walls is not given")
     parser.add_argument("--apart", type=float, default=0.5, help="tip lengths")

@@ -20,6 +20,7 @@ ALMOST_NONE = 1e-6  # s, of a lag
 NOISY = 1.2  # times the noise: where a model leaves more, it is wrong otherwise, and tells nothing of the sensor
 TAKEN = 0.05  # of the squares, that a relaxation takes at least where a rest shows one
 RELAXATION = "relaxation"  # begins the names of its parameters
+FAR_AWAY = 1.0  # m, of a surface: no needle comes to it
 WORSE = 1.02  # a held-out error that is higher by less than this factor is not worse
 
 
@@ -103,6 +104,19 @@ class Rule:
         if gain <= needed or self._may_be_slow_noise(new, old):
             return False
         return self._predicts(new, old)
+
+    def touches(self, one: Candidate) -> bool:
+        """Whether its walls are more than a zero, forces of the rig and noise, also slow noise that the air allows."""
+        found = one.fit
+        away = {f"membrane[{i}].surface": FAR_AWAY for i in range(one.model.membranes)}
+        try:
+            nothing = fit(found.misfit, ("offset", *one.model.rig), found.parameters.with_values(away))
+        except TraceError:
+            return True
+        more = len(found.u) - len(nothing.u)
+        needed = STRONG + more * float(np.log(len(found.residuals)))
+        left, least = (each.noise.misfit_beyond_slow_noise(self.air.allows) for each in (nothing, found))
+        return left - least > needed
 
     def _predicts(self, new: Candidate, old: Candidate) -> bool:
         """Whether the held-out error of `new` is not worse."""

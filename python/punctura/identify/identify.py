@@ -47,6 +47,10 @@ MORE_OPTIMA = Cause(
     "The search for the intervals met parameters that explain the trace better than the fit, also after new fits from "
     "there. Do not trust the values: the trace holds too little for so many parameters, or the model is wrong",
 )
+NO_CONTACT = (
+    "no contact: a zero of the sensor and noise of {:.2g} N explain the force as well as a wall does, so there is no "
+    "law to tell. Insert deeper, or choose another column for the force"
+)
 ENDED = (
     "The search for a model ended before it had tried all: no short one explains the trace. State what is known, such "
     "as the number of walls (--membranes), the lag of the sensor or the noise of the depth (--rig)."
@@ -130,7 +134,7 @@ def identify(
 
     membranes: their number; "auto" begins with that of the pops, and tries one fewer and one more. report: gets a word
     about each step. rig: what is known of its sensors. Raises TraceError for a trace with a severe finding, and if no
-    fit succeeds; ConfigurationError for a rig that cannot be; ModuleNotFoundError.
+    fit succeeds or the needle touches nothing; ConfigurationError for a rig that cannot be; ModuleNotFoundError.
     """
     check(rig, needle)
     severe = [finding for finding in trace.findings if finding.severe]
@@ -151,6 +155,8 @@ def _identified(
     all_used = len(few) == len(trace)
     count, most = (membranes, None) if isinstance(membranes, int) else (_pops(trace, segments), MOST_MEMBRANES)
     choice = choose(few, segments if all_used else segment(few), needle, count, report, most=most, rig=rig)
+    if not choice.search.rule.touches(choice.current):
+        raise TraceError(f"{trace.source or 'the trace'}: {NO_CONTACT.format(float(np.std(trace.force)))}")
     found: tuple[Estimate, ...] | None = None
     better: list[tuple[Model, Parameters]] = []
     air = choice.search.rule.air if all_used else AirNoise(trace, segments)

@@ -13,7 +13,7 @@ from punctura.identify.noise import NoiseOfFit
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.search import thinned
 from punctura.identify.verdict import verdicts
-from punctura.trace import Trace, segment
+from punctura.trace import Trace, TraceError, segment
 from traces import NEEDLE, force_of, motion
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
@@ -70,6 +70,13 @@ def test_a_wall_is_not_added_for_slow_noise(seed):
     assert any(
         "A wall that adds less than 0." in text and "cannot be told from that" in text for text in found.verdicts
     )
+
+
+@pytest.mark.parametrize("slow", [{}, {"drift": 0.03}, {"walk": 0.1}])
+def test_a_needle_that_touches_nothing_has_no_law(slow):
+    trace, needle, _ = TOOL["random_trace"](3, TOOL["Conditions"](machine=True, rate=50, air=True, **slow))
+    with pytest.raises(TraceError, match="no contact: a zero of the sensor and noise of 0"):
+        identify(trace, needle)
 
 
 @pytest.mark.parametrize(("slow", "white"), [(0.0, 1.0), (3.0, 1.0)])
