@@ -21,7 +21,7 @@ the forces of the rig that it is said to have are those that it has.
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
 down, and "warned" says how often the result doubts the needle.
 "still": how often the result does not say that the tissue moves; "explained": how often the result is called so;
-"law": how often there is a result at all.
+"frank": how often it is not called explained with a wrong number of walls; "law": how often there is a result at all.
 --walls: with 2, the second surface
 lies --apart tip lengths behind the first one, and the number of walls is not given to identify; "walls" says how often
 it is right. --air: the needle touches nothing, and there should be no law. --auto: the number is not given for
@@ -65,7 +65,7 @@ AIR = 2e-3  # m, in front of the first surface
 THINNER = 4.0  # of several walls, so that they overlap in the tip and not in themselves
 WALK = 10.0  # s, after which --walk is reached
 SLOW = 1.0  # s, of the drift: its correlation falls by a factor of e
-WHOLE = ("law", "rig", "still", "explained", "walls", "warned")  # rows that are of the whole result
+WHOLE = ("law", "rig", "still", "explained", "frank", "walls", "warned")  # rows that are of the whole result
 HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
@@ -248,14 +248,16 @@ def tried(seed: int, given: Conditions) -> list[Row]:
     try:
         found = identify(trace, stated, membranes="auto" if chosen else 1, rig=known)
     except TraceError:  # no contact that noise does not explain
-        return [Row("law", True, False, False)]
+        return [Row("law", True, False, False), Row("frank", True, True, False)]
     true = Parameters(needle, np.array([default_membrane()] * given.walls), default_coupling(0.0)).with_values(truth)
     names = [*truth, "offset"]
     assert trace.time is not None
     inflated = given.noise * np.sqrt((1 + given.correlation) / (1 - given.correlation))
     _, errors = information(true, names, trace.time, trace.depth, inflated)
+    right = len(found.parameters.membranes) == given.walls
     rows = [
         Row("law", True, True, False),
+        Row("frank", True, right or not found.doubts.whole, False),
         Row("still", True, "moving_tissue" not in [cause.kind for cause in found.doubts.causes], False),
         Row("explained", True, found.doubts.whole, False),
     ]
@@ -264,7 +266,7 @@ def tried(seed: int, given: Conditions) -> list[Row]:
         told = {name for name in ("slide_friction", "cable_stiffness", "air_steps") if name in kinds}
         rows.append(Row("rig", True, told == of_rig.keys(), False))
     if chosen:
-        rows.append(Row("walls", True, len(found.parameters.membranes) == given.walls, False))
+        rows.append(Row("walls", True, right, False))
     if given.wrong:
         rows.append(Row("warned", True, any("stated needle" in verdict for verdict in found.verdicts), False))
     for estimate in found.estimates:

@@ -21,6 +21,7 @@ from punctura.identify.fit import Fit, Misfit, Start, best_fit, in_order
 from punctura.identify.growing_noise import with_growing_noise
 from punctura.identify.intervals import Estimate, estimates, with_subtracted
 from punctura.identify.late_sensor import late_words, not_told_apart
+from punctura.identify.maybe_walls import maybe_walls
 from punctura.identify.model import Model
 from punctura.identify.moves import with_contacts_moved, with_pops_moved
 from punctura.identify.moving_tissue import moving_tissue
@@ -205,7 +206,7 @@ def _identified(
         *advice,
     )
     searched = [MORE_OPTIMA] if more else []
-    doubt = doubt.beside(*doubt_of_needle(found, needle, rig), *slow_misfit(*of_few), *searched)
+    doubt = doubt.beside(*doubt_of_needle(found, needle, rig), *slow_misfit(*of_few), *maybe_walls(final), *searched)
     advice = (*doubt.sentences, *advice, *([ENDED] if choice.search.ended else []))
     found = with_subtracted(found, trace)
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))

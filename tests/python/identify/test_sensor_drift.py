@@ -72,6 +72,22 @@ def test_a_wall_is_not_added_for_slow_noise(seed):
     )
 
 
+@pytest.mark.parametrize(
+    ("seed", "noise", "walls", "said"),
+    [
+        (232083, {"walk": 0.1}, 1, True),  # they were called explained, with a second wall that is not there
+        pytest.param(231023, {"drift": 0.1}, 1, True, marks=pytest.mark.statistics),
+        pytest.param(236002, {"drift": 0.03}, 2, False, marks=pytest.mark.statistics),
+    ],
+)
+def test_a_wall_that_falls_by_no_more_than_slow_noise_may_be_none(seed, noise, walls, said):
+    given = TOOL["Conditions"](machine=True, auto=True, rate=50, walls=walls, apart=1.3, **noise)
+    trace, needle, _ = TOOL["random_trace"](seed, given)
+    found = identify(trace, needle)
+    assert len(found.parameters.membranes) == 2 and found.doubts.whole is not said
+    assert ("maybe_wall" in [cause.kind for cause in found.doubts.causes]) is said
+
+
 @pytest.mark.parametrize("slow", [{}, {"drift": 0.03}, {"walk": 0.1}])
 def test_a_needle_that_touches_nothing_has_no_law(slow):
     trace, needle, _ = TOOL["random_trace"](3, TOOL["Conditions"](machine=True, rate=50, air=True, **slow))
