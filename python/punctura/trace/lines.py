@@ -15,7 +15,8 @@ from punctura.trace.heading import with_unit
 from punctura.trace.table import LONGEST_NAME, MOST_COLUMNS
 from punctura.trace.trace import TraceError
 
-LOOKED_AT = 200  # lines at the end, which show delimiter and width; lines at the start, which may stand above the table
+LOOKED_AT = 200  # lines at the end, which show delimiter and width
+MOST_ABOVE = 5000  # lines at the start, among which the table begins
 MOST_BYTES = 500_000_000  # the cells of a table take a few times as much memory
 _LONGEST_LINE = LONGEST_NAME * MOST_COLUMNS  # characters
 _MOST_JOINED = 20  # lines of a row
@@ -40,7 +41,7 @@ def survey(pieces: Pieces) -> Survey:
     last: list[str] = []
     count = 0
     for lines in pieces():
-        first += lines[: LOOKED_AT - len(first)]
+        first += lines[: MOST_ABOVE - len(first)]
         rows = [line for line in lines if not is_comment(line)]
         last = (last + rows)[-LOOKED_AT:]
         count += len(rows)

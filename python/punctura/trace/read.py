@@ -136,6 +136,7 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
             text += ", far outside all other values"
             found.append(Finding("no_reading", f"{text}: this is taken for no reading", True))
             held[role] = np.where(empty, np.nan, held[role])
+    held = _to_the_end(held, table, found)
     held = with_depth_between(held, found)
     good = np.all([np.isfinite(column) for column in held.values()], axis=0)
     if not good.all():
@@ -172,6 +173,17 @@ def _from_table(table: Table, source: str, reading: Reading) -> Trace:
     if "time" in held and abs(held["time"][0]) > _LATE:
         held["time"] = held["time"] - held["time"][0]
     return replace(Trace(held["depth"], held["force"], held.get("time"), source), findings=tuple(found))
+
+
+def _to_the_end(held: dict[str, Array], table: Table, found: list[Finding]) -> dict[str, Array]:
+    """Without the rows behind the last depth and force, if other columns, of other specimens, go on."""
+    measured = np.any([np.isfinite(held[role]) for role in ("depth", "force") if role in held], axis=0)
+    end = int(np.flatnonzero(measured)[-1]) + 1 if measured.any() else len(measured)
+    if end == len(measured) or not np.any([np.isfinite(column[end:]) for column in table.values()], axis=0).all():
+        return held
+    text = f"the last {len(measured) - end} rows hold no depth and no force, and are left out"
+    found.append(Finding("shorter", f"{text}: other columns of the file are longer", True))
+    return {role: column[:end] for role, column in held.items()}
 
 
 def _joined(held: dict[str, Array], found: list[Finding]) -> dict[str, Array]:

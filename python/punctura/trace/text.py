@@ -24,6 +24,7 @@ from punctura.trace.encoding import encoding_of
 from punctura.trace.heading import column_names, first_row, second_table, with_unit
 from punctura.trace.lines import (
     LOOKED_AT,
+    MOST_ABOVE,
     MOST_BYTES,
     Pieces,
     is_comment,
@@ -75,8 +76,9 @@ def read_text(path: Path, decimal: Decimal | None = None, encoding: str | None =
     above = [[] if is_comment(line) else _cells(line, delimiter) for line in head]
     first = first_row(above, width, mark)
     if first == len(above):
-        wanted = f"{width} cells in a row are expected, as at its end" if width > 1 else "it has no columns"
-        raise TraceError(f"{path}: holds no rows of numbers; {wanted}")
+        where = f"its first {MOST_ABOVE:,} lines hold" if found.rows > MOST_ABOVE else "it holds"
+        wanted = f" of {width} cells, as at its end" if width > 1 else " in columns"
+        raise TraceError(f"{path}: {where} no rows of numbers{wanted}; export the samples as a table, one row for each")
     empty = min(next((i for i, cell in enumerate(row[::-1]) if cell), width) for row in last)  # columns at the end
     headings = [(line, _words(line.lstrip("#% "), delimiter, width)) for line, _ in above_all[:first]]
     titles = [words for line, words in headings if not (is_comment(line) and len(words) < width)]  # without remarks
@@ -195,10 +197,12 @@ def _cells(line: str, delimiter: str) -> list[str]:
 def _words(line: str, delimiter: str, width: int) -> list[str]:
     """The cells of a line above the numbers. A unit in brackets may stand behind a single space: `Depth (mm)`."""
     cells = _cells(_spaced(line, delimiter), delimiter)
-    if delimiter != " " or len(cells) == width:
+    if len(cells) == width:
         return cells
     parts = re.split(r"\s{2,}|\t", line.strip())
-    return parts if len(parts) == width else re.findall(r"\S+(?: [\[({<][^\])}>]*[\])}>])?", line)
+    if len(parts) == width:
+        return parts
+    return cells if delimiter != " " else re.findall(r"\S+(?: [\[({<][^\])}>]*[\])}>])?", line)
 
 
 def _parsed(path: Path, rows: _Rows, names: list[str], delimiter: str) -> tuple[pa.Table, list[int]]:

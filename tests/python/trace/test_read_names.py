@@ -52,6 +52,8 @@ HEADS = {
     "a balance and the time of a computer": written("Unix time (s),Depth (mm),Weight (g)", force="gf", mark=","),
     "units of one letter as names": written("s,mm,N", mark=","),
     "units of an Arduino": written("millis,depth_mm,weight_g", force="gf", time="ms", mark=","),
+    "two spaces between names above tabs": written("Time [s]  Depth [um]  Force [mN]", "um", "mN"),
+    "a long report above": "".join(f"step {i}: held\n" for i in range(300)) + written("t (s);z (mm);f (N)", mark=";"),
     "units as names": written("sec,in,ozf", "in", "ozf", mark=","),
     "a name of somebody": written("run (s),tip went to (mil),felt (dyn)", "mil", "dyn", mark=","),
 }
@@ -211,6 +213,15 @@ def test_many_lost_rows_are_severe_and_nothing_else_is_concluded(tmp_path):
     (tmp_path / "a.csv").write_text("\n".join(lines))
     [finding] = read_trace(tmp_path / "a.csv").findings
     assert finding.kind == "rows_without_numbers" and finding.severe and "200 of" in finding.text
+
+
+def test_a_specimen_ends_where_the_ones_beside_it_go_on(tmp_path):
+    lines = written("time_s,depth_mm,force_N,other_mm,other_N", mark=",").splitlines()
+    longer = [f"{line},0,0" if i else line for i, line in enumerate(lines)] + [f",,,{i},1" for i in range(2000)]
+    (tmp_path / "a.csv").write_text("\n".join(longer))
+    read = check(tmp_path / "a.csv", columns={"depth": "2", "force": "3"})
+    assert [one.kind for one in read.findings] == ["shorter"]
+    assert "the last 2000 rows" in read.findings[0].text and not read.findings[0].severe
 
 
 def test_intervals_of_a_rheometer_and_blocks_of_a_testing_machine_are_one_trace(tmp_path):
