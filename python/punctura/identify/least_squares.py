@@ -55,6 +55,8 @@ def least_squares(
                 return at, count, False
             far = _within(values, downhill, radius)
             trial = np.clip(at + vectors @ far / axes, at + SHORT * (low - at), at + SHORT * (high - at))
+            if not np.isfinite(trial).all():  # the slope or a length overflows
+                return at, count, False
             move = trial - at
             promised = -float(2 * slope @ move + move @ gram @ move)
             tried, count = residuals(trial), count + 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
@@ -60,12 +61,10 @@ def profile_fit(trace: Trace, surfaces: Array, lengths: Array, thickness: float,
     at = trace.depth - np.maximum(trace.force, 0) / stiffness  # the proxy, while the needle slides in
     knots = np.array([length * np.linspace(0, 1, KNOTS) for length in lengths])
     zeros = np.zeros(KNOTS)
-    weights = np.hstack(
-        [
-            ProfileLaw(row.tolist(), zeros, zeros, thickness).weights(at - surface)
-            for row, surface in zip(knots, surfaces, strict=True)
-        ]
-    )
+    with warnings.catch_warnings():  # the trace has told what is unusual in it
+        warnings.simplefilter("ignore", UserWarning)
+        laws = [ProfileLaw(row.tolist(), zeros, zeros, thickness) for row in knots]
+    weights = np.hstack([law.weights(at - surface) for law, surface in zip(laws, surfaces, strict=True)])
     values, norm = nnls(weights, np.asarray(trace.force))
     return ProfileFit(
         surfaces, thickness, stiffness, knots, values.reshape(knots.shape), float(norm / np.sqrt(len(trace)))

@@ -99,7 +99,9 @@ def walls_of(trace: Trace, segments: Segments, one: bool = False) -> tuple[Wall,
     if not inward:
         raise TraceError(f"{trace.source}: the needle never goes in: rivals need an insertion")
     end = max((stroke.end - 1 for stroke in inward), key=lambda i: trace.depth[i])
-    contact = segments.contact if segments.contact is not None else inward[0].start
+    contact = segments.contact
+    if contact is None or contact > end:  # in a later insertion
+        contact = inward[0].start
     pops = [pop for pop in segments.pops if pop.start <= end]
     slope = _slope(trace, pops[-1].end if pops else contact, end)
     if one or not pops:

@@ -46,6 +46,18 @@ def test_derivatives_that_overflow_end_the_search_where_it_is():
     assert not ended and (found == start).all()
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_residuals_that_overflow_end_the_search_where_it_is():
+    start = np.array([1.0, 2.0])
+
+    def residuals(at):
+        assert np.isfinite(at).all()
+        return np.array([1e200, -1e200])
+
+    found, _, ended = least_squares(residuals, lambda at: 1e150 * np.eye(2), start, (-OPEN, OPEN), 1e-9, 1e-9, 50)
+    assert not ended and (found == start).all()
+
+
 def test_a_fit_that_ends_where_derivatives_overflow_is_an_error(monkeypatch):
     found = identify(trace(noise=0.01, seed=2), NEEDLE, membranes=1).fit
     monkeypatch.setattr(type(found.misfit), "jacobian", lambda *given: np.full(found.jacobian.shape, np.inf))

@@ -62,6 +62,16 @@ def test_friction_outwards_is_fitted_only_with_a_withdrawal():
     assert both.layers[0].rival.numbers["out_ratio"] == pytest.approx(0.6, rel=0.05)
 
 
+def test_a_first_insertion_that_does_not_reach_the_contact_has_walls_all_the_same():
+    made = trace_of("exponential", TRUE["exponential"])
+    short = np.concatenate([np.linspace(0, 5e-3, 60), np.linspace(5e-3, 0, 60)])  # nothing is there yet
+    air = NOISE * np.random.default_rng(2).standard_normal(len(short))
+    trace = Trace(np.concatenate([short, made.depth]), np.concatenate([air, made.force]))
+    found = segment(trace)
+    assert {stroke.insertion for stroke in found.strokes if stroke.end > found.contact} == {1}
+    assert walls_of(trace, found)
+
+
 def test_a_vector_moves_between_problems_that_fit_different_numbers():
     trace = trace_of("exponential", TRUE["exponential"], withdrawal=True)
     walls, path = walls_of(trace, segment(trace), one=False), path_of(trace, segment(trace))
