@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from punctura.errors import ConfigurationError
 from punctura.identify.least_squares import least_squares
 from punctura.identify.noise import Mixture, NoiseOfFit
 from punctura.identify.parameters import ZERO, Free, Parameters
@@ -88,8 +89,11 @@ class Misfit:
         return friction_of_slide(self.trace.slide, *(self._subtracted + parameters.nuisance[_KEPT]))
 
     def residuals(self, free: Free, u: Array, blur: int = 0) -> Array:
-        """Model minus measured force at the used samples, N. blur: see blurred()."""
-        left = self.forces(free.parameters(u)) - self.trace.force
+        """Model minus measured force at the used samples, N; infinite for no law. blur: see blurred()."""
+        try:
+            left = self.forces(free.parameters(u)) - self.trace.force
+        except ConfigurationError:  # a steep grip overflows where its wall pops
+            return np.full(int(self.used.sum()), np.inf)
         return np.asarray(self._weighted(blurred(left[:, None], blur))[:, 0])
 
     def jacobian(self, free: Free, u: Array, blur: int = 0) -> Array:

@@ -92,6 +92,12 @@ def test_the_coordinate_of_a_wall_that_pops_behind_the_trace_is_its_surface():
     assert free.coordinates(start)[0] == pytest.approx(5.013e-3)
 
 
+def test_coordinates_that_give_no_law_are_infinitely_far_from_the_trace():
+    start = Parameters(NEEDLE, np.array([default_membrane()]), default_coupling(900))
+    free = Free(["membrane[0].surface"], start)
+    assert np.isinf(Misfit(trace(noise=0.01), start).residuals(free, np.array([np.nan]))).all()
+
+
 @pytest.mark.parametrize("deepest", [np.inf, 6e-3])  # the wall pops deeper than 6 mm
 def test_derivatives_by_coordinates_are_exact(deepest):
     made = trace(noise=0.01, surface=5.013e-3)
