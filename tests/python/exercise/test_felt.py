@@ -3,11 +3,12 @@
 import numpy as np
 import punctura as pn
 import pytest
-from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, of_positions
-from punctura._core import ForceLimits, ServoState
+from attempts import HEAD, as_a_device_runs_it, goal, hand_run, ideal, judged, motion_of, of_positions
+from punctura._core import ForceLimits, ServoLoop, ServoState, SimulatedDevice
 from punctura.exercise import Result, cannot_show, expected_losses, load_exercise
 from punctura.exercise.losses import needed_drop
 from punctura.scene import DisplaySettings
+from waiting import wait_until
 
 SCENE = pn.load_scene("venipuncture")
 PRESS = HEAD.replace("[space]", "[space]\npress_mm = 9\nsign_is_felt = true")
@@ -158,3 +159,21 @@ def test_what_is_expected_is_what_a_hand_gets():
     loss = loss_of(result, "ligamentum flavum")
     assert result.passed, result.reasons
     assert loss.drop == pytest.approx(expected.drop, rel=0.15)
+
+
+@pytest.mark.parametrize(("speed", "cut"), [(4.0, False), (1.0, True)])
+def test_whoever_waits_between_the_pops_of_the_blind_exercise_feels_less_of_the_force(speed, cut):
+    """8 mm to the first membrane's pop, then 8.2 mm at this speed, mm/s, and 3 s of rest."""
+    exercise = load_exercise("blind")
+    axis, legs = np.asarray(exercise.start_axis), [WAIT, (2.0, 8.0), (8.2 / speed, 16.2), (3.0, 16.2)]
+    ticks = round(sum(seconds for seconds, _ in legs) * 1600)
+    motion = motion_of(exercise, legs, axis)
+    device = SimulatedDevice(motion, real_time=False, ticks=ticks, axis=axis)
+    loop = ServoLoop(device, as_a_device_runs_it(exercise.scene))
+    listener = loop.listen(ticks)
+    loop.arm()
+    loop.start()
+    wait_until(lambda: device.finished)
+    loop.stop()
+    made = judged(exercise, dict(listener.read()), ticks, loop.scene, simulated=True).finish()
+    assert bool(made.metrics.force_cut) == cut

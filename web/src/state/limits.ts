@@ -33,8 +33,8 @@ export const cutJustNow = (history: History): number | null => lastCut(history, 
 
 const REMEDIES: Readonly<Partial<Record<Limit, string>>> = {
   peak: "Push more gently.",
-  continuous: "Rest for some seconds, then it comes back.",
-  temperature: "Let the motors cool.",
+  continuous: "Draw back a little for some seconds, then it comes back.", // at rest, friction holds the needle
+  temperature: "Draw the needle out, and let the motors cool.",
 };
 
 /** For a learner: that a limit cut the force in a tick, why, and what to do. */

@@ -23,7 +23,7 @@ describe("the limit that cuts the force", () => {
   });
   it("is told to a learner with what to do", () => {
     expect(cutSentence(run, 50)).toBe(
-      "Force cut: long-run limit, 0.76 of 2.19 N. Rest for some seconds, then it comes back.",
+      "Force cut: long-run limit, 0.76 of 2.19 N. Draw back a little for some seconds, then it comes back.",
     );
   });
 });
