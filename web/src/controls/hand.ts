@@ -1,3 +1,4 @@
+import { degrees } from "../format.ts";
 import { type Hand, handOf, LARGEST_TILT_DEG } from "../hand/hand.ts";
 import { element, everyFrame, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
@@ -44,13 +45,13 @@ function angleRow(hand: Hand): HTMLElement {
   let shown: number | null = null;
   const show = (): void => {
     if (!hand.pose()) return; // no tick has arrived yet
-    const degrees = Math.round((hand.tilt() * 180) / Math.PI);
-    if (degrees === shown && slider.value === String(degrees)) return;
-    shown = degrees;
-    slider.value = String(degrees);
-    figure.textContent = `${degrees} degrees`;
-    slider.setAttribute("aria-valuetext", `${degrees} degrees from upright, ${90 - Math.abs(degrees)} to the skin`);
-    figure.title = `${90 - Math.abs(degrees)} degrees to the skin`;
+    const tilt = Math.round((hand.tilt() * 180) / Math.PI);
+    if (tilt === shown && slider.value === String(tilt)) return;
+    shown = tilt;
+    slider.value = String(tilt);
+    figure.textContent = degrees(tilt);
+    slider.setAttribute("aria-valuetext", `${degrees(tilt)} from upright, ${90 - Math.abs(tilt)} to the skin`);
+    figure.title = `${degrees(90 - Math.abs(tilt))} to the skin`;
   };
   slider.addEventListener("input", () => {
     hand.setTilt((Number(slider.value) * Math.PI) / 180);

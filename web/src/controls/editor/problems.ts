@@ -1,3 +1,4 @@
+import { degrees } from "../../format.ts";
 import type { ProblemPart } from "../../wire/messages.ts";
 import type { Bound, Field } from "./fields.ts";
 import { numberText } from "./number.ts";
@@ -43,9 +44,9 @@ export const plainPaths = (text: string): string =>
 
 /** A reason as a sentence in the page's words, without the number of the paper's equation. */
 export function words(reason: string): string {
-  const plain = plainPaths(reason.replace(/, K06 \(\d+\)$/, ""))
-    .replace(/\b1 deg\b/, "1 degree")
-    .replace(/ deg\b/, " degrees");
+  const plain = plainPaths(reason.replace(/, K06 \(\d+\)$/, "")).replace(/(-?[\d.]+) deg\b/g, (_, number: string) =>
+    degrees(Number(number)),
+  );
   const capital = plain.charAt(0).toUpperCase() + plain.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

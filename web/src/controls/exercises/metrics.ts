@@ -1,3 +1,4 @@
+import { degrees } from "../../format.ts";
 import { feltForce } from "../../state/scale.ts";
 import type { Metrics } from "../../wire/messages.ts";
 import { lossText } from "./goals.ts";
@@ -81,7 +82,7 @@ export function metricRows(metrics: Metrics): MetricRow[] {
     },
     {
       label: "Angle of entry",
-      value: angle === null ? NONE : `${((angle * 180) / Math.PI).toFixed(0)} degrees`,
+      value: angle === null ? NONE : degrees(Math.round((angle * 180) / Math.PI)),
       help: "Angle between the needle and the first surface.",
     },
     {

@@ -14,7 +14,7 @@ test("a problem is shown at the field that caused it, all others at the top", ()
       { path: "membrane[0].stiffness_N_per_mm", value: "0", reason: "must be greater than 0" },
       { path: "membrane[2].point_mm[1]", value: "x", reason: "must be a number" },
       { path: "coupling.relaxation_time_constant_s", value: "0", reason: "must be greater than 0" },
-      { path: "goal[0].within_deg", value: "46", reason: "must be at most 45 deg" },
+      { path: "goal[0].within_deg", value: "46", reason: "must be at most 45 deg, at least 0.1 deg" },
       { path: "", value: "", reason: "membrane[1].tail_length_mm needs a tail" },
     ],
     shown,
@@ -26,7 +26,7 @@ test("a problem is shown at the field that caused it, all others at the top", ()
     "membrane 1, stiffness = 0: Must be greater than 0.",
     "membrane 3, point y = x: Must be a number.",
     "coupling, relaxation time constant = 0: Must be greater than 0.",
-    "goal[0].within_deg = 46: Must be at most 45 degrees.",
+    "goal[0].within_deg = 46: Must be at most 45 degrees, at least 0.1 degrees.",
     "Membrane 2, tail length needs a tail.",
   ]);
 });
