@@ -32,9 +32,9 @@ def slow_words(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iter
     elif _of_sensor(fit, air):
         yield (
             f"The measured force drifts slowly about the model, by {slow:.2g} N. A wall that adds less than "
-            f"{TOLD * slow:.2g} N, {TOLD:g} times as much, cannot be told from that. "
+            f"{TOLD * slow:.2g} N ({TOLD:g} times this drift) cannot be told from it. "
             + (
-                "The fit takes it into account, but the interval of a surface is too narrow. "
+                "The fit takes it into account, but intervals may be too narrow, above all that of a surface. "
                 if whitened
                 else "The intervals are then too narrow. "
             )

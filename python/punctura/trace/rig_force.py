@@ -38,7 +38,7 @@ SLOW = 0.3  # of a drift at an end, that may be uneven
 BOTH = 0.5  # of the way in air, that the way out must show, too
 WAYS = (0.0, *np.geomspace(2e-6, 1e-3, 19))  # m: over which friction rises by a factor of 1 - 1/e, and finer ones
 FINER = 6  # between two of them
-AT_ONCE = 0.5  # of the way between two samples: they do not tell a shorter one
+SHORTEST = 0.5  # of the way between two samples: they do not tell a shorter one
 QUICK = 0.3  # of a friction: two samples between which it rises by more tell only when the slide began to move
 ITSELF = 1.15  # times the friction that a slide keeps from before: it is no more than itself
 
@@ -209,7 +209,7 @@ class _Keeping:
             return None
         finer = np.linspace(WAYS[max(at - 1, 0)], WAYS[at + 1], 2 * FINER + 1).tolist()
         over = min(finer, key=lambda one: self._left(self._slide.kept(one), rows))
-        over = max(over, AT_ONCE * self._slide.step)  # else a fit finds no other way
+        over = max(over, SHORTEST * self._slide.step)  # else a fit finds no other way
         friction, before = self._slide.kept(over)
         longest = 0.0 if trace.time is None else float(trace.time[ends[1].start] - trace.time[ends[0].stop - 1])
         told = [0, 1] if _moves_at_both(trace, ends) else [0]

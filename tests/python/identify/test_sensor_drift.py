@@ -68,7 +68,7 @@ def test_a_wall_is_not_added_for_slow_noise(seed):
     found = identify(trace, needle)
     assert len(found.parameters.membranes) == 1
     assert any(
-        "A wall that adds less than 0." in text and "cannot be told from that" in text for text in found.verdicts
+        "A wall that adds less than 0." in text and "cannot be told from it" in text for text in found.verdicts
     )
 
 

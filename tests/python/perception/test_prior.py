@@ -10,7 +10,7 @@ from punctura.perception import load_protocol
 from punctura.perception.analysis import person
 from punctura.perception.course import Course
 from punctura.perception.power import with_trials
-from punctura.perception.psychometric import QUARTER, Shape, posterior
+from punctura.perception.psychometric import Shape, posterior
 from scipy.special import ndtr, ndtri
 
 WIDE_FINE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 25))
@@ -48,7 +48,7 @@ def test_over_its_prior_95_percent_of_the_intervals_hold_the_jnd() -> None:
         lapse, bias = random.beta(1, 50), 0.7 * random.standard_normal()
         hits = random.random(len(x)) < lapse / 2 + (1 - lapse) * ndtr((x - place) / noise + side * bias)
         middle, low, high = posterior(Shape(bends=True, rest="bias"), levels, x, hits, side).jnd((0.5, 0.025, 0.975))
-        true = QUARTER * noise
+        true = ndtri(0.75) * noise
         found.append((low < true < high, np.log(middle / true), np.log(high / low) / 3.92, lapse > 0.04))
     held, error, width, lapses = np.array(found).T
     print(f"JND over the prior {held.mean():.1%}, many lapses {held[lapses == 1].mean():.1%}: "
