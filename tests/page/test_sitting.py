@@ -8,6 +8,13 @@ from punctura.perception import Observer, Simulation, load_protocol, write_repor
 from senses import STUBS
 from sitting import PROTOCOL, answered, on_disk, sentence, sitting, until
 
+# Whether an empty box shows all of what may be typed.
+FITS = """box => {
+  const style = getComputedStyle(box), pen = document.createElement("canvas").getContext("2d");
+  pen.font = `${style.fontSize} ${style.fontFamily}`;
+  return pen.measureText(box.placeholder).width <= box.clientWidth - 2 * parseFloat(style.paddingLeft);
+}"""
+
 
 def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, tmp_path):
     answered(tmp_path, 18)
@@ -48,6 +55,7 @@ def test_a_full_word_gives_consent_and_a_key_does_not(browser, tmp_path):
     with sitting(tmp_path) as studio, opened(browser, studio.url, bench=False) as page:
         sentence(page, "I take part. Do you agree?")
         typed = page.get_by_placeholder("Type yes or no, then Enter")
+        assert typed.evaluate(FITS)
         page.keyboard.type("y")
         expect(typed).to_have_value("y")
         page.keyboard.press("Enter")

@@ -51,6 +51,7 @@ export const sitting: Panel = (root, app) => {
     answers.replaceChildren(...buttons);
     stop.textContent = now.force_off;
     typed.placeholder = typed.ariaLabel = now.typed;
+    typed.size = Math.max(now.typed.length, 1);
     typed.hidden = gone || !now.typed;
     typed.inputMode = now.answers.length ? "text" : "decimal";
     typed.value = "";
