@@ -4,7 +4,7 @@ from pathlib import Path
 
 import punctura as pn
 import pytest
-from person import columns, drag_in, opened, ready, saved, tab
+from person import columns, drag_in, opened, ready, saved, tab, view
 from playwright.sync_api import Browser, expect
 from punctura._core import ForceLimits, force_scale
 from punctura.live import felt_force
@@ -30,6 +30,26 @@ def test_the_header_names_the_limit_that_cuts_the_force(browser: Browser, tmp_pa
         expect(loop).to_contain_text("peak force3.3 N")
         expect(loop).to_contain_text("long-run force0.1 N rms in any 2 s")
         expect(loop).to_contain_text("speed of the hand8 m/s")
+
+
+def test_the_stage_tells_a_cut_force_with_what_to_do_also_without_a_device(
+    browser: Browser, tmp_path: Path, limits: Path
+):
+    with (
+        StudioProcess(tmp_path, "k06-fig10", more=["--limits", str(limits)]) as studio,
+        opened(browser, studio.url, bench=False) as page,
+    ):
+        cut = page.locator(".stage-cut")
+        expect(page.locator(".stage-number")).to_contain_text("N")
+        expect(cut).to_be_empty()
+        view(page).focus()
+        for _ in range(100):
+            page.keyboard.press("ArrowDown")
+            page.wait_for_timeout(50)
+            if cut.inner_text():
+                break
+        expect(cut).to_contain_text("Force cut: long-run limit, 0.")
+        expect(cut).to_contain_text("Draw back a little")
 
 
 def test_the_scale_stands_where_a_force_is_and_a_loss_that_cannot_be_felt_is_told_before_the_start(
