@@ -21,6 +21,7 @@ WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way o
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
 IMPOSSIBLE = ("air_steps", NO_AIR, "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
 NOT_EXPLAINED = "not explained: see below"  # behind the error of a model that is not the whole truth
+TAKEN_UP = 2.0  # times the slow noise that a fit leaves: it is on both ways and in the zero, and a fit takes it up
 UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
 
 
@@ -148,7 +149,7 @@ def _asymmetry(
     if ways is None or not ways.uneven or (ways.ratio < 1 and WEAKER & set(extensions)):
         return ()
     slow = fit.noise.slow_and_white()[0] if assessment.ok else 0.0
-    if abs(ways.difference) < SURE * max(slow, assessment.blocks.noise):
+    if abs(ways.difference) < SURE * max(TAKEN_UP * slow, assessment.blocks.noise):
         return ()
     kind, text = way_out(ways.ratio, ways.growth)
     hidden = ". The model explains it by other means: do not trust its walls" if assessment.ok else ""

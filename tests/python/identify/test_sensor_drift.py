@@ -88,6 +88,11 @@ def test_a_wall_that_falls_by_no_more_than_slow_noise_may_be_none(seed, noise, w
     assert ("maybe_wall" in [cause.kind for cause in found.doubts.causes]) is said
 
 
+def test_slow_noise_makes_no_asymmetric_way_out():
+    trace, needle, _ = TOOL["random_trace"](212055, TOOL["Conditions"](machine=True, rate=50, drift=0.1))
+    assert identify(trace, needle).doubts.whole
+
+
 @pytest.mark.parametrize("slow", [{}, {"drift": 0.03}, {"walk": 0.1}])
 def test_a_needle_that_touches_nothing_has_no_law(slow):
     trace, needle, _ = TOOL["random_trace"](3, TOOL["Conditions"](machine=True, rate=50, air=True, **slow))
