@@ -3,6 +3,7 @@
     python tools/try_intervals.py [--traces 1000] [--noise 0.01] [--correlation 0] [--drift 0] [--walk 0]
         [--rate 200] [--machine] [--early] [--inward] [--depth-noise 0] [--depth-step 0] [--force-step 0] [--growing 0]
         [--tremor 0] [--lag 0] [--delay 0] [--play 0] [--slide 0] [--presliding 0] [--cable 0] [--examined] [--air]
+        [--depth-rate 0] [--bursts 0] [--bessel 0]
         [--tolerance 0] [--wrong 0] [--walls 1] [--apart 0.5] [--auto] [--workers 1] [--seed 1]
 
 Each trace is a random membrane behind a random spring, felt by a simulated hand at a simulated device (plant and
@@ -15,7 +16,9 @@ N, that a random walk of the sensor reaches in 10 s. --depth-noise: m. --depth-s
 multiples of these, m and N. --growing: noise beside --noise, as a share of the force. --lag, --delay: of the force
 sensor, s. --play: of the drive of --machine, m. --tremor: of 8 to 10 Hz, on the way of --machine, m.
 --slide: friction of the rig's slide, N, that a rest keeps, and that rises over --presliding, m, where it turns.
---cable: N/m. With one of these, or --examined, the trace is examined as one from a file is, and "rig" says how often
+--cable: N/m. --depth-rate: Hz, of readings of the depth that are held between. --bursts: noise more in a fifth of the
+samples, in stretches of 0.2 s, N. --bessel: the limit of a filter of the second order in the force, Hz. With one of the
+last five, or --examined, the trace is examined as one from a file is, and "rig" says how often
 the forces of the rig that it is said to have are those that it has.
 --tolerance: the true diameter of the needle is within this share of
 the stated one, in 95 of 100 traces, and identify is told so. --wrong: the stated diameter is off by this share, up or
@@ -55,7 +58,7 @@ from punctura.scene import ServoSettings
 from punctura.simulation import Experiment, Strokes
 from punctura.trace import Trace, TraceError
 from punctura.trace.findings import examine
-from scipy.signal import lfilter
+from scipy.signal import bessel, lfilter
 from scipy.stats import binomtest
 
 DEVICE_HZ = 1600
@@ -70,7 +73,8 @@ HIDDEN = np.log(100) / (2 * 1.96)  # standard error of a logarithm
 
 OTHERS = {
     "--walk": "N in 10 s", "--depth-noise": "m", "--depth-step": "m", "--force-step": "N", "--lag": "s", "--delay": "s",
-    "--play": "m", "--tremor": "m", "--slide": "N", "--presliding": "m", "--cable": "N/m", "--growing": "of the force",
+    "--play": "m", "--tremor": "m", "--slide": "N", "--presliding": "m", "--cable": "N/m",
+    "--depth-rate": "Hz", "--bursts": "N", "--bessel": "Hz", "--growing": "of the force",
     "--tolerance": "of the diameter", "--wrong": "of the diameter",
 }  # fmt: skip
 
@@ -98,6 +102,9 @@ class Conditions:
     slide: float = 0.0
     presliding: float = 0.0
     cable: float = 0.0
+    depth_rate: float = 0.0
+    bursts: float = 0.0
+    bessel: float = 0.0
     examined: bool = False
     air: bool = False
     tolerance: float = 0.0
@@ -169,6 +176,14 @@ def random_trace(seed: int, given: Conditions) -> tuple[Trace, pn.Needle, dict[s
         force += given.drift * correlated(rng, count, float(np.exp(-1 / (SLOW * given.rate))))
     force += given.walk / np.sqrt(WALK * given.rate) * np.cumsum(rng.normal(size=count))
     depth = depth + given.depth_noise * rng.normal(size=count)
+    if given.bursts:
+        force += np.where((5 * time).astype(int) % 5 == 0, given.bursts, 0.0) * rng.normal(size=count)
+    if given.bessel:
+        parts = bessel(2, given.bessel, fs=given.rate, norm="mag")
+        force = force[0] + lfilter(*parts, force - force[0])
+    if given.depth_rate:
+        each = round(given.rate / given.depth_rate)
+        depth = np.repeat(depth[::each], each)[:count]
     return Trace(stepped(depth, given.depth_step), stepped(force, given.force_step), time), needle, truth
 
 
@@ -238,7 +253,7 @@ def tried(seed: int, given: Conditions) -> list[Row]:
         trace = until_half(trace, truth, needle)
     of_rig = {"slide_friction": given.slide, "cable_stiffness": given.cable}
     of_rig = {name: size for name, size in of_rig.items() if size}
-    examined = given.examined or bool(of_rig)
+    examined = given.examined or bool(of_rig or given.depth_rate or given.bursts or given.bessel)
     trace = examine(trace) if examined else trace
     drawn = np.random.default_rng(10**6 + seed).normal()
     share = given.tolerance * drawn / 1.96 + given.wrong * np.sign(drawn)
