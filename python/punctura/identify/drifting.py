@@ -19,7 +19,7 @@ ONE_SINE = 0.6  # of the squares beside white noise: a random walk has up to 0.4
 
 def slow_words(fit: Fit, air: AirNoise, explained: bool, whitened: bool) -> Iterator[str]:
     """What a hum or a drift of the sensor does to the intervals. The arguments are those of verdicts()."""
-    slow = _slow(fit, explained)
+    slow = _slow(fit, explained, whitened)
     if slow is None:
         return
     if (swing := _swing(fit)) is not None:
@@ -55,12 +55,12 @@ def slow_misfit(fit: Fit, air: AirNoise, explained: bool) -> tuple[Cause, ...]:
     return (Cause("slow_misfit", 0.0, text),)
 
 
-def _slow(fit: Fit, explained: bool) -> float | None:
+def _slow(fit: Fit, explained: bool, whitened: bool = False) -> float | None:
     """Slow noise that matters, N; None if there is none, or if the trace is said to be not explained."""
-    slow, other = fit.noise.slow_and_white()
-    slow = min(slow, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
-    peak = float(np.max(np.abs(fit.misfit.trace.force)))
-    return slow if explained and slow > DRIFTING * other and slow > SEEN * peak else None
+    likely, other = fit.noise.slow_and_white()
+    slow = min(likely, fit.rmse)  # noise that is slower than the trace is known to no more than what the fit leaves
+    much = (likely if whitened else slow) > DRIFTING * other  # the last fit takes it for as much as is likely
+    return slow if explained and much and slow > SEEN * float(np.max(np.abs(fit.misfit.trace.force))) else None
 
 
 def _of_sensor(fit: Fit, air: AirNoise) -> bool:

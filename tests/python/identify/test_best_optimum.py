@@ -45,7 +45,7 @@ def test_the_intervals_lead_from_a_lesser_optimum_to_the_best_one(seed, one_star
     assert STEP in reports
     monkeypatch.undo()
     best = identify(trace, needle, 1)
-    assert found.fit.sse < best.fit.sse * (1 + 2 / len(trace))  # within two variances of a sample
+    assert found.fit.sse < best.fit.sse * (1 + 3 / len(trace))  # within three variances of a sample
     assert not any("better than the fit" in verdict for verdict in found.verdicts)
 
 

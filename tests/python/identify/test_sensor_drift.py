@@ -67,9 +67,7 @@ def test_a_wall_is_not_added_for_slow_noise(seed):
     trace, needle, _ = TOOL["random_trace"](seed, given)
     found = identify(trace, needle)
     assert len(found.parameters.membranes) == 1
-    assert any(
-        "A wall that adds less than 0." in text and "cannot be told from it" in text for text in found.verdicts
-    )
+    assert any("A wall that adds less than 0." in text and "cannot be told from it" in text for text in found.verdicts)
 
 
 @pytest.mark.parametrize(
