@@ -33,8 +33,8 @@ def readings_missing(limits: Sequence[LimitJudge]) -> list[str]:
         return []
     names = ", ".join(f"“{limit.text}”" for limit in limits)
     return [
-        f"Not measured: {names}. Readings were late or missing at {tenths(min(times))} s of the run, because the "
-        "computer was too busy: close other programs, and try again."
+        f"Not measured: {names}. Readings were late or missing at {tenths(min(times))} s of the run. If other "
+        "programs keep the computer busy, close them, and try again."
     ]
 
 
