@@ -165,9 +165,9 @@ export class Block {
     );
   }
 
-  /** The middle of its upper face behind the cut, where it is drawn now, mm. */
-  get middle(): Vector3 {
-    return this.cut.point(this.cut.centre, 0, this.cut.w - (DEEP * this.size) / 2);
+  /** The middle of the upper edge of the cut, where it is drawn now, mm. */
+  get edgeMiddle(): Vector3 {
+    return this.cut.point(this.cut.centre, 0, this.cut.w);
   }
 
   /** Depth of its lower face, mm. */

@@ -1,12 +1,12 @@
 import { BoxGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import type { Goal } from "../state/app.ts";
 import type { SceneView } from "../wire/messages.ts";
-import { DEEP } from "./cut.ts";
 import { FatLine } from "./fat_line.ts";
 import { MM } from "./moment.ts";
 import type { Theme } from "./theme.ts";
 
 const OPEN = 3; // mm, the drawn depth of a goal without an end
+const FLAT = 0.1; // mm, its thickness on the cut
 const SHARE = 0.62; // of the tissue's half side, so that the mark stands inside it
 
 /** What an exercise asks to reach: a band between two depths, and the line that the point must meet. */
@@ -62,7 +62,8 @@ export class GoalMark {
       .multiplyScalar(MM)
       .addScaledVector(normal, (top + bottom) / 2);
     this.band.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, -1, 0), normal));
-    this.band.scale.set(side, bottom - top, this.inTissue ? SHARE * DEEP * size : side);
+    // On the cut itself: what stands before or behind it would be seen beside its own layer.
+    this.band.scale.set(side, bottom - top, this.inTissue ? FLAT : side);
     this.from.copy(this.band.position);
     this.middle.copy(this.from);
     if (!goal.line) {
@@ -86,7 +87,7 @@ export class GoalMark {
   }
 
   /**
-   * Moves it to the middle of the drawn tissue, mm, which follows the needle: along its line, or along the surface.
+   * Moves it to the middle of the cut tissue, mm, which follows the needle: along its line, or along the surface.
    * cut: the direction along the surface in which the tissue is cut open.
    */
   follow(middle: Vector3, cut: Vector3): void {

@@ -122,7 +122,7 @@ export class World {
     this.holes.read(source, scene.membranes);
     let changed = this.membranes.update(moment, this.holes);
     changed = this.block.update(moment, this.holes, camera, pixel) || changed;
-    if (this.block.shown) this.mark.follow(this.block.middle, this.block.cut.along);
+    if (this.block.shown) this.mark.follow(this.block.edgeMiddle, this.block.cut.along);
     changed = this.blood.update(this.membranes, moment.axis) || changed;
     changed = this.needle.follow(source, moment, scene) || changed;
     if (!this.differs(this.values(target, pixel), changed)) return false;
