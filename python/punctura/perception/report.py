@@ -288,7 +288,8 @@ def _label(protocol: Protocol) -> str:
     if protocol.in_newtons:
         return f"felt {protocol.quantity}, N"
     if found := re.fullmatch(r"membrane\[(\d+)\]\.(\w+)", name):
-        name = f"{found[2]} of the {protocol.stimuli[0].scene.membranes[int(found[1])].name}"
+        membrane = protocol.stimuli[0].scene.membranes[int(found[1])].name
+        name = f"{found[2]} of the {membrane}".replace("$", r"\$")  # else a formula is between two of them
     return name + {"m": ", mm", "": ""}.get(protocol.unit, f", {protocol.unit}")
 
 

@@ -26,6 +26,7 @@ from punctura.perception import (
 from punctura.perception.observer import Senses
 from punctura.perception.report import DICTIONARY, write_report
 from punctura.perception.session import agreed
+from punctura.scene.ready import scene_path
 
 
 @pytest.fixture(scope="module")
@@ -259,6 +260,15 @@ def test_a_text_that_is_not_ours_is_no_part_of_a_report(tmp_path: Path) -> None:
             "A &lt;script&gt;alert(1)&lt;/script&gt; &amp; ![b]&#40;http://x.example/y.png) &#124; c # Anot" in report
         )
         assert "&lt;img src=x&gt;" in report and "&lt;b&gt;Touch&lt;/b&gt;" in report
+
+
+def test_the_name_of_a_membrane_is_no_formula_of_the_picture(tmp_path: Path) -> None:
+    text = scene_path("k06-fig10").read_text().replace("thin membrane", "$skin^$")
+    (tmp_path / "own.toml").write_text(text)
+    protocol = load_protocol(written(tmp_path, YES.replace("k06-fig10", "own.toml")))
+    Simulation(protocol, Observer(noise=0.03)).run_on_disk(tmp_path / "out", "O01", 1)
+    assert write_report(protocol, tmp_path / "out").people[0].reason == ""
+    assert "<!-- thickness of the $skin^$, mm -->" in (tmp_path / "out" / "functions.svg").read_text()
 
 
 def test_a_report_says_what_so_few_answers_do_not_tell(tmp_path: Path) -> None:
