@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,9 +19,12 @@ from punctura.perception.drift import sentences
 from punctura.perception.protocol import Protocol
 from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Person, words
 from punctura.perception.session import (
+    SUFFIX,
     TABLES,
+    WRITTEN,
     Header,
     SessionError,
+    check_alike,
     check_header,
     check_recordings,
     read_session,
@@ -41,6 +44,10 @@ STYLE = (
     "td,th{padding:0 5px;border-bottom:.5pt solid #ccc;text-align:left;font-weight:normal}tr{break-inside:avoid}"
 )
 NO_FORCE = "; no hand felt a force, because a mouse, a finger or keys moved the needle"
+UNFINISHED = (
+    "Not finished: {names}. What is there is analysed, and counts in the mean; blocks, levels and orders are not yet "
+    "balanced."
+)
 SAME_ORDER = (
     "{names} have the same number, {number}, and so the same order of trials: its effects are not balanced over them. "
     "If all begin in one folder, each has a number of its own."
@@ -93,24 +100,28 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
 
     Raises SessionError if there is none, or one of another protocol, or one that was changed by hand.
     """
-    found, headers = dict[str, list[Line]](), dict[str, Header]()
+    found, headers, unfinished = dict[str, list[Line]](), dict[str, Header](), dict[str, int]()
     for path in sessions(folder):
         header, lines = read_session(path)
         if header:
             check_header(header, protocol, path)
-            replayed(protocol, header, lines, path)
+            if replayed(protocol, header, lines, path).next() is not None:
+                unfinished[path.stem] = protocol.file.scored
             check_recordings(header, lines, folder)
             found[path.stem], headers[path.stem] = lines, header
     if not found:
         raise SessionError(f"{folder} has no session; punctura perception run makes one")
+    check_alike(headers.values(), next(iter(headers.values())).simulated)
     analysis = analyse(protocol, found)
     rows = list[dict[str, object]]()
     for one in analysis.people:
         header = headers[one.participant]
         one.number, one.device, one.device_simulated = header.number, header.device, header.device_simulated
+        one.planned = unfinished.get(one.participant, 0)
         rows += [_row(protocol, header, line) for line in found[one.participant] if not one.copy_of]
     table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
     about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
+    _check_kept(folder, found)
     for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
         save(content, folder / name, private=True)
     write_whole(folder / "results.json", f"{analysis.model_dump_json(indent=1)}\n".encode(), private=True)
@@ -119,7 +130,16 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
     text = _text(protocol, analysis, bool(picture))
     write_whole(folder / "report.md", text.encode(), private=True)
     write_whole(folder / "report.html", _page(text, (picture or b"").decode()).encode(), private=True)
+    _check_kept(folder, found)
     return analysis
+
+
+def _check_kept(folder: Path, participants: Iterable[str]) -> None:
+    """Raises SessionError if a participant was deleted meanwhile; then nothing that was computed from it is left."""
+    if gone := [name for name in participants if not (folder / f"{name}{SUFFIX}").is_file()]:
+        for name in WRITTEN:
+            (folder / name).unlink(missing_ok=True)
+        raise SessionError(f"{', '.join(gone)} was deleted during the analysis: run it again")
 
 
 def _safe(text: str) -> str:
@@ -153,7 +173,8 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         if one.reason:
             cells = [one.reason, *[""] * (len(keys) - 1)]
         blocks = ", ".join("-" if share is None else format(share, form) for share in one.by_block)
-        rows.append([one.participant, str(one.trials), *cells, blocks])
+        trials = f"{one.trials} of {one.planned}" if one.planned else str(one.trials)
+        rows.append([one.participant, trials, *cells, blocks])
     if not found.reason:
         known, counted = sum(not one.reason for one in found.people), sum(not one.copy_of for one in found.people)
         means = [words(getattr(found, key, None)) for key in keys]
@@ -166,6 +187,8 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
     lines += [f"No mean: {found.reason}.", ""] if found.reason else []
+    if part := [one.participant for one in found.people if one.planned]:
+        lines += [UNFINISHED.format(names=" and ".join(part)), ""]
     lines += [line for text in sentences(protocol, found) for line in (text, "")]
     for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)

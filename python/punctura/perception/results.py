@@ -36,6 +36,7 @@ class Person(BaseModel):
     device: str = ""  # its model; empty for an observer
     device_simulated: bool = False  # then no hand felt a force
     trials: int  # scored
+    planned: int = 0  # scored trials of a whole session; 0 if it is whole
     threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the
     # difference from the reference that is told with a probability half-way between guess and 1
     jnd: Estimate | None = None  # half the distance between 25 % and 75 %; for right answers the threshold itself

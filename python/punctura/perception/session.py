@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from punctura.record.new_file import in_use, lock
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
+MOST_N = 1000.0  # of a felt force: no device gives as much to a hand
 MOST_TOLD = 5  # differences of a file from the planned session
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
 WRITTEN = ("report.md", "report.html", "functions.svg", "results.json", *TABLES)  # by the analysis
@@ -182,6 +183,10 @@ def replayed(protocol: Protocol, header: Header, lines: Sequence[Line], path: Pa
                 wrong.append(Problem(f"{where}: {key}", found, f"planned is {wanted!r}"))
         if len(line.felt) != protocol.intervals:
             wrong.append(Problem(f"{where}: felt", len(line.felt), f"intervals, and a trial has {protocol.intervals}"))
+        if (most := max((abs(force) for one in line.felt for force in (one.drop, one.peak)), default=0.0)) > MOST_N:
+            wrong.append(Problem(f"{where}: felt", most, f"is more than {MOST_N:g} N"))
+        if line.time and not _is_time(line.time):
+            wrong.append(Problem(f"{where}: time", line.time, "is no time in ISO 8601"))
         own = re.compile(rf"{re.escape(header.participant)}-{trial.number:04d}-\d+\.parquet")
         others = [name for name in line.recordings if not own.fullmatch(name)]
         wrong += [Problem(f"{where}: recordings", name, "is the name of another trial's") for name in others]
@@ -267,11 +272,24 @@ def delete_participant(folder: Path, participant: str) -> list[Path]:
 def _free_number(paths: set[Path], simulated: bool) -> int:
     """The smallest number that no session has: it decides the participant's order. Raises SessionError."""
     headers = [header for path in paths if (header := read_session(path)[0])]
+    check_alike(headers, simulated)
+    used = {header.number for header in headers}
+    return next(number for number in range(len(used) + 1) if number not in used)
+
+
+def check_alike(headers: Iterable[Header], simulated: bool) -> None:
+    """Raises SessionError if a session is not one of observers (simulated), or of people."""
     if any(header.simulated != simulated for header in headers):
         other = "people" if simulated else "simulated observers"
         raise SessionError(f"the folder has sessions of {other}, and no report may mix both: choose another --out")
-    used = {header.number for header in headers}
-    return next(number for number in range(len(used) + 1) if number not in used)
+
+
+def _is_time(text: str) -> bool:
+    try:
+        datetime.fromisoformat(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _now() -> str:

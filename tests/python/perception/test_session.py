@@ -23,8 +23,10 @@ from punctura.perception import (
     load_protocol,
     read_session,
 )
+from punctura.perception.analysis import analyse
 from punctura.perception.observer import Senses
 from punctura.perception.report import DICTIONARY, write_report
+from punctura.perception.results import Analysis
 from punctura.perception.session import agreed
 from punctura.scene.ready import scene_path
 
@@ -131,6 +133,11 @@ def changed(folder: Path, senses: Senses, wrong: Callable[[dict], dict]) -> Path
         (lambda line: {"kind": ""}, "line 6: is no line of this session"),
         (lambda line: {"answer": "maybe"}, "line 6: answer = 'maybe': is no answer of two_intervals"),
         (lambda line: {"felt": []}, "line 6: felt = 0: intervals, and a trial has 2"),
+        (
+            lambda line: {"felt": [one | {"peak": 1e300} for one in line["felt"]]},
+            r"felt = 1e\+300: is more than 1000",
+        ),
+        (lambda line: {"time": "=cmd"}, "line 6: time = '=cmd': is no time in ISO 8601"),
         (lambda line: {"recordings": ["P02-0004-1.parquet"]}, "'P02-0004-1.parquet': is the name of another trial's"),
         (lambda line: {"answer": {"first": "second", "second": "first"}[line["answer"]]}, r"line \d+: level = "),
     ],
@@ -146,6 +153,36 @@ def test_a_trial_that_was_changed_by_hand_is_told_and_neither_analysed_nor_conti
         Session(senses.protocol, tmp_path, "P01")
     path.rename(tmp_path / "P02.jsonl")
     with pytest.raises(SessionError, match=r"is the session of P01|is no line"):
+        write_report(senses.protocol, tmp_path)
+
+
+def test_a_participant_who_is_deleted_during_the_analysis_is_in_no_table(
+    tmp_path: Path, senses: Senses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Simulation(senses.protocol, Observer(), senses).run_on_disk(tmp_path, "P01", 7)
+    (tmp_path / "trials.csv").write_text("P01")
+
+    def deleted(*given: object) -> Analysis:
+        (tmp_path / "P01.jsonl").unlink()
+        return analyse(*given)
+
+    monkeypatch.setattr("punctura.perception.report.analyse", deleted)
+    with pytest.raises(SessionError, match="P01 was deleted during the analysis: run it again"):
+        write_report(senses.protocol, tmp_path)
+    assert not [*tmp_path.iterdir()]
+
+
+def test_an_unfinished_session_and_observers_beside_people_are_told(tmp_path: Path, senses: Senses) -> None:
+    path = changed(tmp_path, senses, lambda line: {})
+    whole = path.read_text().splitlines(keepends=True)
+    assert not write_report(senses.protocol, tmp_path).people[0].planned
+    path.write_text("".join(whole[:100]))
+    assert write_report(senses.protocol, tmp_path).people[0].planned == senses.protocol.file.scored
+    report = (tmp_path / "report.md").read_text()
+    assert "| P01 | 99 of 120 |" in report and "Not finished: P01. What is there is analysed" in report
+    header = json.loads(whole[0]) | {"participant": "P02", "simulated": False}
+    (tmp_path / "P02.jsonl").write_text(json.dumps(header) + "\n")
+    with pytest.raises(SessionError, match="the folder has sessions of people, and no report may mix both"):
         write_report(senses.protocol, tmp_path)
 
 
