@@ -21,6 +21,7 @@ RELAXED = 0.05  # of the peak: a force that falls by more in a rest relaxes
 FEWEST, MOST = 5, 100  # samples at one end: fewer tell nothing, more are thinned
 TELLING = 40  # samples of air, by which a noise that is as large as an error of a model in tissue may be excluded
 UNLIKELY = 16.3  # -2 ln of a likelihood ratio, beyond which a noise is excluded: chi-squared of 3, 1 in 1000
+TOO_LARGE = 10.8  # -2 ln of a likelihood ratio of a variance: chi-squared of 1, 1 in 1000
 SHOWN = -2.0  # the same, below which the air shows a noise: more is "not worth a mention" (Kass and Raftery 1995)
 
 
@@ -35,6 +36,7 @@ class AirNoise:
         before = np.arange(0 if segments.contact is None else segments.contact + 1)
         after = np.arange(n if segments.exit is None else segments.exit, n)
         ends = [rows[:: -(-len(rows) // MOST)] for rows in (before, after) if len(rows) >= FEWEST]
+        self._sizes = [len(rows) for rows in ends]
         self._rows = np.concatenate(ends) if ends else np.arange(0)
         self._force = trace.force[self._rows]
         known = [np.ones(n), *shapes(trace).T]
@@ -72,7 +74,9 @@ class AirNoise:
 
     def allows(self, mixture: Mixture, variance: float) -> bool:
         """Whether the air does not exclude this noise, of this variance, N^2; short air excludes little."""
-        return len(self._force) < 2 * FEWEST or self._against(mixture, variance) <= UNLIKELY
+        if len(self._force) < 2 * FEWEST:
+            return True
+        return self._against(mixture, variance) <= UNLIKELY and not self._too_large(mixture, variance)
 
     def tested(self, mixture: Mixture, variance: float) -> bool:
         """Whether there are TELLING samples of air, and they do not exclude this noise: it need not be there."""
@@ -83,7 +87,25 @@ class AirNoise:
 
         What is slow in tissue alone may as well be a model that is wrong there.
         """
-        return len(self._force) >= 2 * FEWEST and self._against(mixture, variance) < SHOWN
+        return self.allows(mixture, variance) and (
+            len(self._force) >= 2 * FEWEST and self._against(mixture, variance) < SHOWN
+        )
+
+    def _too_large(self, mixture: Mixture, variance: float) -> bool:
+        """Whether one end of the trace is too quiet for so much of this noise, although it may be correlated so.
+
+        Correlated air excludes white noise, and then any noise of that correlation is more likely than white noise.
+        """
+        begin = 0
+        for size in self._sizes:
+            rows, begin = slice(begin, begin + size), begin + size
+            if size >= 2 * FEWEST:
+                lags = np.abs(self._rows[rows, None] - self._rows[rows])
+                shape = mixture.share * np.exp(-lags / mixture.length) + (1 - mixture.share) * np.eye(size)
+                excess, likely = self._excess(shape, variance, rows)
+                if likely < variance and excess > TOO_LARGE:
+                    return True
+        return False
 
     def _against(self, mixture: Mixture, variance: float) -> float:
         """-2 ln of the likelihood of this noise in air over that of the most likely white noise."""
@@ -94,15 +116,25 @@ class AirNoise:
 
     def _misfit(self, shape: Array, variance: float | None) -> float:
         """-2 ln of the restricted likelihood for the correlations `shape` (m, m); variance None: the most likely."""
+        squares, free, sizes = self._left(shape, slice(None))
+        v = max(squares / free if variance is None else variance, 1e-300)
+        return float(2 * np.log(sizes).sum() + free * np.log(v) + squares / v)
+
+    def _excess(self, shape: Array, variance: float, rows: slice) -> tuple[float, float]:
+        """-2 ln of the likelihood of this variance over that of the most likely one, and the most likely one, N^2."""
+        squares, free, _ = self._left(shape, rows)
+        likely = max(squares / max(free, 1), 1e-300)
+        return float(free * (np.log(max(variance, 1e-300) / likely) + likely / max(variance, 1e-300) - 1)), likely
+
+    def _left(self, shape: Array, rows: slice) -> tuple[float, int, Array]:
+        """The squares that the zero and the rig leave, N^2, their degrees of freedom, and the factors of a volume."""
         lower = np.linalg.cholesky(shape)
-        columns = np.linalg.solve(lower, np.column_stack((self._known, self._force)))
+        columns = np.linalg.solve(lower, np.column_stack((self._known[rows], self._force[rows])))
         known, force = columns[:, :-1], columns[:, -1]
         basis, triangle = np.linalg.qr(known)
         left = force - basis @ (basis.T @ force)
-        free, squares = len(shape) - known.shape[1], float(left @ left)
-        v = max(squares / free if variance is None else variance, 1e-300)
-        fixed = 2 * (np.log(np.diag(lower)).sum() + np.log(np.abs(np.diag(triangle))).sum())
-        return float(fixed + free * np.log(v) + squares / v)
+        sizes = np.concatenate((np.diag(lower), np.abs(np.diag(triangle))))
+        return float(left @ left), len(shape) - known.shape[1], sizes
 
 
 def seen_in_air(trace: Trace) -> tuple[str, ...]:

@@ -1,5 +1,7 @@
 """A force that falls in a rest and is gone in air is tissue, also where the model is not the right one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from punctura.identify.air_noise import AirNoise
@@ -11,7 +13,8 @@ from punctura.identify.model import Model, extensions
 from punctura.identify.noise import Mixture
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.trace import Trace, segment
-from traces import NEEDLE, force_of, motion
+from scipy.signal import lfilter
+from traces import NEEDLE, force_of, motion, trace
 
 NOISE = 8e-3
 
@@ -83,3 +86,24 @@ def test_the_air_bounds_an_offset_that_the_fit_leaves_open():
     found = fit(Misfit(made, one_wall(), zero=(-zero, zero)), model.names, one_wall())
     offset = next(one for one in estimates(found, stops=False, outwards=False) if one.name == "offset")
     assert offset.identifiable and (offset.low, offset.high) == pytest.approx((-zero, zero), rel=0.1)
+
+
+def test_a_noise_of_a_correlation_that_air_has_is_not_shown_in_a_size_that_air_has_not():
+    made = trace(noise=0.0, surface=12e-3)
+    ends = segment(made)
+    rough = lfilter([np.sqrt(2 / 100)], [1, -np.exp(-1 / 100)], np.random.default_rng(3).normal(size=len(made)))
+    air = AirNoise(replace(made, force=made.force + 1e-3 * rough), ends)
+    slow = Mixture(1.0, 100.0)
+    assert air.shows(slow, 1e-3**2) and air.tested(slow, 1e-3**2)
+    assert not air.shows(slow, 3e-3**2) and not air.tested(slow, 3e-3**2)
+
+
+def test_one_quiet_end_excludes_a_noise_that_the_other_end_has():
+    made = trace(noise=1e-4, surface=12e-3)
+    ends = segment(made)
+    walk = 0.1 / np.sqrt(400) * np.cumsum(np.random.default_rng(1).normal(size=len(made)))
+    slow = Mixture(1.0, 800.0)
+    one = replace(made, force=made.force + np.where(np.arange(len(made)) >= ends.exit, walk - walk[ends.exit], 0.0))
+    assert not AirNoise(one, ends).allows(slow, 0.1**2)
+    both = replace(made, force=made.force + walk)
+    assert AirNoise(both, ends).allows(slow, 0.1**2) and AirNoise(both, ends).shows(slow, 0.1**2)
