@@ -57,7 +57,8 @@ class Blocks:
 
     edges: NDArray[np.int64]
     strokes: NDArray[np.int64]  # (b,) number of the stroke
-    left: Array  # (b,) N
+    left: Array  # (b,), N, over `times`
+    times: Array  # (b,) how many times the noise in air that in the block is
     noise: float  # N, standard deviation of such a median of noise alone
 
 
@@ -73,8 +74,10 @@ class Explained:
     runs_of_noise: float  # how many noise would have
     effective_samples: float
     samples: int
+    parameters: int
     places: tuple[Place, ...]  # the largest first; empty if the trace is explained
     blocks: Blocks
+    tested: bool  # whether there are more blocks than parameters
     beaten: bool  # less is left than matters, but a force that follows the depth freely is clearly better
 
     @property
@@ -84,13 +87,22 @@ class Explained:
 
     @property
     def whole(self) -> bool:
-        """Whether no law of the depth can be clearly better: the blocks are the best one for each stroke."""
-        return self.ok and not self.beaten
+        """Whether no law of the depth can be clearly better: the blocks are the best one for each stroke.
+
+        False where the trace is too short to tell.
+        """
+        return self.ok and self.tested and not self.beaten
 
     def sentence(self) -> str:
         """What is not explained, and where; empty if the trace is explained."""
         if self.whole:
             return ""
+        if self.ok and not self.tested:
+            return (
+                f"It cannot be tested whether the model explains the trace: the {self.samples} samples are only "
+                f"{len(self.blocks.left)} stretches in tissue, and the model has {self.parameters} parameters, so it "
+                "may fit whatever was measured. Record more samples, or state the number of walls (--membranes)."
+            )
         if self.ok:
             return (
                 f"The model does not explain all: it leaves {self.left:.2g} N beyond chance, "
@@ -113,7 +125,8 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
 
     air_noise: of the same samples. Slow noise that it shows may be in tissue, too.
     """
-    residuals = (trace.force - fit.misfit.forces(fit.parameters)) / grown(trace, segments, fit)
+    times = grown(trace, segments, fit)
+    residuals = (trace.force - fit.misfit.forces(fit.parameters)) / times
     air = in_air(trace, segments, fit)
     calm = (trace.force - fit.misfit.of_rig(fit.parameters))[air]
     if without_zero(trace):  # each end has a level of its own
@@ -124,11 +137,14 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     slow, likely = fit.noise.slow_and_white()[0], fit.noise.most_likely()
     shown = air_noise is not None and air_noise.shows(*likely)
     allowed = air_noise is not None and air_noise.allows(*likely)
-    blocks = _blocks(trace, segments, fit, residuals, calm, max(noise, noise_of(residuals)), slow if shown else 0.0)
+    blocks = _blocks(
+        trace, segments, fit, residuals, times, calm, max(noise, noise_of(residuals)), slow if shown else 0.0
+    )
     signs = residuals[residuals != 0] > 0
     up, n = int(signs.sum()), max(len(signs), 1)
     squares = float(np.mean(blocks.left**2)) if len(blocks.left) else 0.0
-    left = float(np.sqrt(max(squares - blocks.noise**2, 0.0)))
+    beyond = blocks.times**2 * (blocks.left**2 - blocks.noise**2)
+    left = float(np.sqrt(max(float(np.mean(beyond)), 0.0))) if len(beyond) else 0.0
     sure = squares > blocks.noise**2 * (1 + SURE * np.sqrt(2 / max(len(blocks.left), 1)))
     clear = left > max(MATTERS * peak, CLEAR * blocks.noise)
     places = tuple(_places(trace, segments, blocks, peak)) if sure and clear else ()
@@ -136,7 +152,7 @@ def explained(trace: Trace, segments: Segments, fit: Fit, air_noise: AirNoise | 
     return Explained(
         noise, len(calm) >= SHORTEST, left, peak, 1 + int(np.sum(signs[1:] != signs[:-1])),
         1 + 2 * up * (n - up) / n, effective_samples(residuals, len(fit.u)), len(trace),
-        places, blocks, not places and sure and left > least,
+        len(fit.u), places, blocks, len(blocks.left) > len(fit.u), not places and sure and left > least,
     )  # fmt: skip
 
 
@@ -163,7 +179,14 @@ def _surface(trace: Trace, segments: Segments, fit: Fit) -> float:
 
 
 def _blocks(
-    trace: Trace, segments: Segments, fit: Fit, residuals: Array, calm: Array, noise: float, slow: float
+    trace: Trace,
+    segments: Segments,
+    fit: Fit,
+    residuals: Array,
+    times: Array,
+    calm: Array,
+    noise: float,
+    slow: float,
 ) -> Blocks:
     inside = trace.depth > _surface(trace, segments, fit)
     length = max(SHORTEST, int(inside.sum()) // BLOCKS)
@@ -180,12 +203,15 @@ def _blocks(
         spread = max(spread, float(np.var(medians)))
     coarse = rounding(trace.force)  # a sensor that is quieter than its steps gives equal readings, with one error
     spread = max(spread, coarse**2) if noise < 2 * coarse else spread
-    return Blocks(np.array(edges, np.int64).reshape(-1, 2), np.array(owners, np.int64), left, float(np.sqrt(spread)))
+    grew = np.array([float(np.median(times[start:end])) for start, end in edges])
+    return Blocks(
+        np.array(edges, np.int64).reshape(-1, 2), np.array(owners, np.int64), left, grew, float(np.sqrt(spread))
+    )
 
 
 def _places(trace: Trace, segments: Segments, blocks: Blocks, peak: float) -> list[Place]:
     """Neighbouring blocks of one stroke that are wrong in the same direction, the largest first."""
-    wrong = np.abs(blocks.left) > max(SURE * blocks.noise, MATTERS * peak)
+    wrong = np.abs(blocks.left) > np.maximum(SURE * blocks.noise, MATTERS * peak / blocks.times)
     label = np.where(wrong, np.sign(blocks.left), 0.0)
     total = max(float(np.sum(blocks.left**2)), 1e-300)
     found = []
@@ -197,7 +223,7 @@ def _places(trace: Trace, segments: Segments, blocks: Blocks, peak: float) -> li
         share = float(np.sum(blocks.left[part] ** 2)) / total
         found.append(
             Place(stroke.kind, stroke.insertion, start, end, float(depth.min()), float(depth.max()),
-                  float(np.median(blocks.left[part])), share)
+                  float(np.median(blocks.times[part] * blocks.left[part])), share)
         )  # fmt: skip
     return sorted(found, key=lambda place: -place.share)
 

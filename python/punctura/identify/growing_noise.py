@@ -16,6 +16,7 @@ SHARES = np.concatenate(([0.0], np.geomspace(0.1, 30, 26)))  # noise at the grea
 CLEAR = 20.0  # -2 ln of a likelihood ratio, from which on it grows: chance gives 10 in one of 1000 traces
 ALIKE = 1.94  # second differences are correlated by -2/3 and 1/6: so many of them tell as much as one
 BESIDE = 3  # samples beside a pop or a turn, where the model may be a sample early or late
+OPPOSED = -0.2  # correlation of neighbouring changes: white noise has -0.5, and a wrong model that bends more than 0
 FEWEST = 60  # samples that tell
 
 
@@ -40,7 +41,16 @@ def growth(trace: Trace, segments: Segments, found: Fit) -> float:
         shape = 1 + (size * share) ** 2
         worth.append(float(np.log(shape).sum() + len(squares) * np.log(np.mean(squares / shape))))
     best = int(np.argmin(worth))
-    return float(SHARES[best]) if worth[0] - worth[best] > CLEAR * ALIKE else 0.0
+    size = float(SHARES[best])
+    scaled = left / np.sqrt(1 + (size * force / max(float(force.max()), 1e-300)) ** 2)
+    return size if worth[0] - worth[best] > CLEAR * ALIKE and _is_noise(scaled, kept) else 0.0
+
+
+def _is_noise(left: Array, kept: NDArray[np.bool_]) -> bool:
+    """Whether what is left (n,) changes from sample to sample as noise does, and not as a model that is wrong."""
+    changes, inner = np.diff(left), kept[1:-1]
+    one, next_one = changes[:-1][inner], changes[1:][inner]
+    return bool(one @ next_one < OPPOSED * 0.5 * (one @ one + next_one @ next_one))
 
 
 def grown(trace: Trace, segments: Segments, found: Fit) -> Array:

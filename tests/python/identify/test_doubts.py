@@ -329,3 +329,11 @@ def test_a_hum_that_is_sampled_slowly_is_no_drift(seed):
     assert rate == pytest.approx(0.7, abs=0.04)  # it is looked for in steps of a quarter of a period in the trace
     walk = 0.03 * np.cumsum(np.random.default_rng(seed).normal(size=len(made))) / np.sqrt(len(made))
     assert not any("swings about" in one for one in of(replace(made, force=made.force + walk)))
+
+
+def test_a_model_with_as_many_parameters_as_the_trace_has_stretches_cannot_be_tested():
+    few = trace()[::30]
+    explained = doubted(few).explained
+    assert explained.ok and not explained.whole and len(explained.blocks.left) <= len(fitted(few).u)
+    assert explained.sentence().startswith("It cannot be tested whether the model explains the trace")
+    assert not doubted(few).as_dict()["explained"] and doubted(trace()[::5]).explained.whole

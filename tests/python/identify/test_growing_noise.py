@@ -6,9 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from punctura.identify import identify
+from punctura.identify.explained import explained
+from punctura.identify.fit import Misfit, fit
 from punctura.identify.growing_noise import growth
+from punctura.identify.model import Model
+from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.trace import Trace, segment
-from traces import NEEDLE, force_of, motion
+from traces import MEMBRANE, NEEDLE, force_of, motion
 
 TOOL = runpy.run_path(str(Path(__file__).parents[3] / "tools" / "try_intervals.py"))
 Conditions, random_trace = TOOL["Conditions"], TOOL["random_trace"]
@@ -35,3 +39,14 @@ def test_the_growth_is_found_and_white_noise_has_none(seed):
 def test_it_is_no_misfit_of_the_model(seed):
     made, needle, _ = random_trace(seed, Conditions(machine=True, growing=0.05))
     assert identify(made, needle, 1).doubts.explained.ok
+
+
+def test_a_model_that_is_wrong_where_the_force_is_large_is_no_growing_noise():
+    time, depth = motion()
+    force = force_of(depth) * (1 + 0.1 * np.sin(2 * np.pi * time / 0.12))
+    bent = Trace(depth, force + 3e-4 * np.random.default_rng(1).normal(size=len(depth)), time)
+    truth = default_membrane()
+    truth[:5] = 5e-3, MEMBRANE.stiffness, MEMBRANE.precompression, MEMBRANE.friction, MEMBRANE.thickness
+    start = Parameters(NEEDLE, np.array([truth]), default_coupling(4000.0))
+    found = fit(Misfit(bent, start), Model(1).names, start)
+    assert growth(bent, segment(bent), found) == 0 and not explained(bent, segment(bent), found).ok
