@@ -23,6 +23,8 @@ PULL, FINE = 3.0, 0.03  # times the noise, and of the range of the force: the ai
 AIR, SHORTEST = 40, 20  # samples of air that tell a filter, and changes of one part of it
 REPEATED, STILL, UNLIKE = 0.1, 0.15, 0.2  # of the samples, that repeat the one before; in one run; of changes
 NEXT, REVERSE, CHANCE = 0.15, 0.25, 3.3  # correlations of changes that a filter makes; standard deviations of chance
+BEYOND = -0.1  # the least one behind changes that are alike: what a filter has taken comes back, a slow force does not
+NEAR = 8  # lags, at which the correlations are compared with that of the first one
 ALIKE, HUM = 0.8, 0.5  # correlations that only a hum makes: the reverse, and once more
 ROUGH, TOO_ROUGH = 0.05, 1 / 3  # of the range of the force, is a step that is named; one that shows no rise
 READINGS, COARSE, MOST = 20, 0.005, 0.9  # held readings, share of the range that is no fine step, share of them
@@ -136,8 +138,8 @@ def smeared(*air: Array) -> int:
     chance, width = CHANCE / np.sqrt(count), int(np.argmin(alike))
     hum = float(alike[int(np.argmax(alike <= 0)) :].max()) > HUM or alike[width] < -ALIKE
     reverse = alike[width] < -max(REVERSE, chance) and alike[1] > -NEXT
-    smooth = alike[1] > max(NEXT, chance) or reverse
-    if width > 1 and smooth and not hum:
+    smooth = (alike[1] > max(NEXT, chance) and alike[width] < BEYOND) or reverse
+    if width > 1 and smooth and not hum and not _white_beside(alike[1:width], chance):
         return width
     if not _repeated(np.concatenate(air)):
         return 0
@@ -149,6 +151,17 @@ def _alike(parts: Sequence[Array], most: int) -> Array:
     """The correlation of values with those up to `most` samples behind, over all parts; the first is 1, or 0."""
     alike = np.sum([np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts], axis=0)
     return np.asarray(alike / alike[0]) if alike[0] > 0 else alike
+
+
+def _white_beside(alike: Array, chance: float) -> bool:
+    """Whether white noise is left beside a slow change, so that changes are less like the next ones than like others.
+
+    alike: the correlations of changes at lags 1, 2 ..., within the width of a filter, which would leave no white noise.
+    """
+    later = alike[1:NEAR]
+    if not len(later):
+        return False
+    return bool(later.mean() - alike[0] > max(NEXT, chance * np.sqrt(1 + 1 / len(later))))
 
 
 def _repeated(air: Array) -> bool:

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from punctura.trace.air import contact_sample, exit_sample, leaves_air
+from punctura.trace.air import NOISES, contact_sample, exit_sample, leaves_air
 from punctura.trace.ends import begins_in_tissue, fallen
 from punctura.trace.trace import Trace
 from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
@@ -18,6 +18,7 @@ from punctura.trace.turns import depth_hysteresis, noise_of, turning_points
 Array = NDArray[np.float64]
 
 FAR, SUDDEN = 0.1, 5  # of the range of the depth: a rest goes less far, but beside a jump of fewer samples
+RESTLESS = 0.25  # of the range of the force: what changes by more, beside noise, is no air
 AWAY = 0.8  # of the samples in air: a soft layer may begin before the contact
 
 
@@ -85,8 +86,15 @@ def segment(trace: Trace) -> Segments:
     if contact is not None and out is not None and fallen(trace, contact, out) is not None and first:
         in_tissue = begins_in_tissue(trace, contact, out)
         contact = None if in_tissue else contact_sample(trace.depth[: first.end], trace.force[: first.end])
+    contact = None if contact is not None and _restless(trace.force[: contact + 1], trace.force) else contact
+    out = None if out is not None and _restless(trace.force[out:], trace.force) else out
     pops = [pop for pop in _pops(trace, strokes) if contact is None or pop.start > contact]
     return Segments(contact, tuple(pops), tuple(strokes), out)
+
+
+def _restless(air: Array, force: Array) -> bool:
+    """Whether a force (n,), N, changes by too much beside the whole one to be that of air."""
+    return float(np.ptp(air)) - NOISES * noise_of(force) > RESTLESS * float(np.ptp(force))
 
 
 def way_to_tissue(trace: Trace, strokes: Sequence[Stroke]) -> Stroke | None:

@@ -12,7 +12,7 @@ from punctura.live import SimulatedDevice
 from punctura.record import open_recording
 from punctura.record.save_as import export_pieces
 from punctura.simulation import Strokes
-from punctura.trace import TraceError, read_trace
+from punctura.trace import Trace, TraceError, read_trace, segment
 from punctura.trace.samples import smoothed
 from recorded import recorded
 from scipy.signal import lfilter
@@ -180,6 +180,27 @@ def test_slow_noise_of_a_sensor_is_not_called_smoothed(length):
     assert not list(smoothed(white[0] + 0.01 * np.arange(300) ** 2))  # a soft layer
     averaged = np.apply_along_axis(np.convolve, 1, white, np.ones(10) / 10, "valid")
     assert sum(bool(list(smoothed(noise))) for noise in averaged) > 15
+
+
+def test_a_slow_force_beside_white_noise_is_not_called_smoothed():
+    """A filter leaves no white noise, and its changes are unlike those that are further away than it is wide."""
+    rng, time = np.random.default_rng(5), np.arange(300)
+    for _ in range(20):
+        fringes = 6 * np.sin(2 * np.pi * time / 110 + rng.uniform(0, 6))
+        assert not list(smoothed(fringes + 0.25 * rng.normal(size=300)))
+        creep = 30 * np.exp((time - 300) / rng.uniform(10, 40)) + np.cumsum(rng.normal(size=300))
+        assert not list(smoothed(creep))
+
+
+def test_a_force_that_moves_by_a_quarter_of_its_range_is_no_air(tmp_path):
+    """A dome of rubber gives way before it is pressed hard: no part of it is air."""
+    depth = np.concatenate((np.linspace(0, 3.7e-3, 700), np.linspace(3.7e-3, 0, 700)))
+    dome = 0.6 * np.sin(np.pi * np.clip(depth / 3e-3, 0, 1)) + 1.8 * np.clip((depth - 3.3e-3) / 0.4e-3, 0, 1) ** 2
+    force = dome + 5e-4 * np.random.default_rng(1).normal(size=len(depth))
+    made = Trace(depth, force, np.arange(len(depth)) / 200)
+    assert segment(made).contact is None
+    read = read_trace(write_csv(tmp_path / "a.csv", columns_of(made)))
+    assert "no_contact" in kinds(read) and not {"smoothed", "drift"} & kinds(read)
 
 
 @pytest.mark.parametrize("changed", [lambda force: np.round(force, 1), lambda force: np.repeat(force[::10], 10)])
