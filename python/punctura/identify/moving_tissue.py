@@ -22,7 +22,7 @@ from punctura.trace import Trace
 Array = NDArray[np.float64]
 
 FASTEST, SAMPLES = 4.0, 8  # Hz, and samples of a period: a swing that is looked for is slower
-PERIODS, MOST = 1.0, 2400  # in the time in tissue, at least; frequencies that are tried
+PERIODS, MOST = 3.0, 2400  # in the time in tissue, at least; frequencies that are tried
 PER_PERIOD = 2  # frequencies, from one that makes a period more in the trace to the next
 LIKELY, FINER = 10, np.array([-1.0, 0.0, 1.0]) / 3  # frequencies that are tried again, in parts of the way to the next
 SIZES, PHASES = (5e-5, 3e-4), np.arange(4) * np.pi / 4  # m; a factor may be negative
