@@ -27,9 +27,10 @@ from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
+WRONG_UNIT = "wrong_unit"  # a finding
 # An insertion outside these bounds, from microneedles to trocars, can point to a wrong unit.
-_DEPTHS = (1e-5, 0.5)  # m, range of the depth
-_FORCES = (2e-5, 1000.0)  # N, greatest force
+DEPTHS = (1e-5, 0.5)  # m, range of the depth
+FORCES = (2e-5, 1000.0)  # N, greatest force
 _FASTEST, _SLOWEST = 0.1, 2e-5  # m/s
 _BACK, _JUMP = 0.5, 20.0  # of the range of the depth, and times the usual step: no needle goes back like that
 
@@ -132,16 +133,16 @@ def _pushed(force: Array) -> bool:
 def _units(trace: Trace) -> Iterator[Finding]:
     span, peak = float(np.ptp(trace.depth)), float(np.max(np.abs(trace.force)))
     peak = 0.0 if np.ptp(trace.force) == 0 else peak
-    for what, value, unit, (least, most) in (("depth", span, "m", _DEPTHS), ("force", peak, "N", _FORCES)):
+    for what, value, unit, (least, most) in (("depth", span, "m", DEPTHS), ("force", peak, "N", FORCES)):
         if value == 0:
             text = f"the {what} is the same in every sample; name another column (--column {what}=NAME)"
             yield Finding("constant", text, severe=True)
         elif not least <= value <= most:
             factor = "1000 times too large" if value > most else "1000 times too small"
             name = "range of the depths" if what == "depth" else "greatest force"
-            other = ", or this is another test than the insertion of a needle" if value > most else ""
-            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}{other}"
-            yield Finding("wrong_unit", f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
+            other = "or this is another test than the insertion of a needle"
+            text = f"the {name} is {value:.3g} {unit}, perhaps {factor}, {other}"
+            yield Finding(WRONG_UNIT, f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
 
 
 def _stacked(trace: Trace) -> Iterator[Finding]:
