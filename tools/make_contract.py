@@ -136,8 +136,8 @@ def messages() -> dict[str, Any]:
         {"kind": "exercise", "exercise": "venipuncture", "running": True, "instruction": "Push.", "goals": goals,
          "result": "", "blind": False, "held": 1.5, "hold": 3.0, "time": 12.5, "time_limit": 60.0},
         {"kind": "sitting", "question": 4, "sentence": "Did it pop?", "answers": [{"name": "yes", "key": "y"}],
-         "any_number": False, "covered": True, "noise": True,
-         "force_off": "Force off (Esc)", "sound": "Press a key.", "gone": "Not connected.", "number": "Above 0"},
+         "typed": "", "covered": True, "noise": True,
+         "force_off": "Force off (Esc)", "sound": "Press a key.", "gone": "Not connected."},
         {"kind": "reply", "id": 1, "ok": False, "text": "1 problem", "problems": [problem], "data": {}},
         {"kind": "notice", "text": "Größe"},
     ]  # fmt: skip

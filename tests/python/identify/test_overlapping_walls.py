@@ -25,7 +25,8 @@ def test_both_walls_are_found_whether_all_samples_are_used_or_half_of_them(every
     found = identify(trace[::every], needle)
     assert len(found.parameters.membranes) == 2
     assert found.fit.rmse < 1.3 * NOISE
-    assert "the walls share one spring" in found.verdicts[0]
+    assert any("the walls share one spring" in text for text in found.verdicts)
+    assert any("pop within 3 samples" in text for text in found.verdicts) == (every == 2)  # fewer samples tell less
     for i in range(2):
         name = f"membrane[{i}].surface"
         assert found.parameters.get(name) == pytest.approx(truth[name], abs=0.3e-3)

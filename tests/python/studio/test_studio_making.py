@@ -7,7 +7,7 @@ import threading
 
 import pytest
 from punctura._core import ForceLimits
-from punctura.errors import ConfigurationError
+from punctura.errors import FREE_SPACE, ConfigurationError
 from punctura.exercise import exercise_names, exercise_of, load_exercise
 from punctura.exercise.exercise import exercise_text
 from punctura.scene import scene_path
@@ -217,4 +217,4 @@ def test_a_full_disk_is_told_with_the_file_and_without_the_number_of_the_error(p
 
     monkeypatch.setattr("punctura.studio.own_exercises.write_whole", full)
     path = served.session.shelf.folder / "exercises" / "mine.toml"
-    assert page.ask(**sent(TEXT))["text"] == f"{path}: {os.strerror(errno.ENOSPC)}"
+    assert page.ask(**sent(TEXT))["text"] == f"{path}: {os.strerror(errno.ENOSPC)}; {FREE_SPACE}"
