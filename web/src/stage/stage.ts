@@ -128,13 +128,15 @@ export const stage: Panel = (root, app) => {
     if (time - wordsAt < WORDS_MS) return;
     wordsAt = time;
     const { text, takeOver } = sentence.words(bands, hidden ? null : now);
-    write(words, text);
     take.hidden = !takeOver;
-    write(force, now && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
+    const gone = source.value.live && app.engine.studio && app.connection.value.state !== "open";
+    write(force, now && !gone && Number.isFinite(now.force) ? newton(now.force).replace("-", "−") : "–");
     write(name, tick === null ? "" : feltShareText(scaleOf(source.value)));
     const told = built?.syringe && tick !== null && !app.blind;
     write(syringe, told ? injectedText(source.value.history, tick) : "");
-    const cutAt = source.value.live ? cutJustNow(app.live.history) : null;
+    const cutAt = source.value.live && !gone ? cutJustNow(app.live.history) : null;
+    const alone = cutAt !== null && !takeOver && !app.exercise.value?.running && !app.sitting.value;
+    write(words, alone ? "" : text); // one thing to do at a time
     write(cut, cutAt === null ? "" : unbroken(cutSentence(app.live.history, cutAt)));
   });
 };

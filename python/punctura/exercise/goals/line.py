@@ -127,7 +127,8 @@ class LineJudge(BegunJudge):
 
     def praise(self, seen: Seen) -> Iterator[Remark]:
         if self.farthest is not None:
-            text = f"You hit the middle of {seen.space.name}: {no_more_than(self.farthest)} beside its middle line."
+            beside = no_more_than(self.farthest)
+            text = f"You hit the middle of {seen.space.name}: {beside} to the side of its middle line."
             yield Remark(about="line", text=text, numbers={"beside_m": self.farthest, "allowed_m": self.within})
 
 

@@ -33,12 +33,18 @@ export class Progress {
 
   /** Takes all ticks and events since the last call. Returns whether something has changed. */
   follow({ history, events, laws }: Source): boolean {
+    const before = this.state;
     if (history.generation !== this.generation) {
       // A new run; or the first call, which looks only at what happens from now on.
       this.next = this.began = this.generation === -1 ? Math.max(history.first, history.end - 1) : history.first;
       this.generation = history.generation;
+      if (this.done < TASKS.length) {
+        this.done = 0; // the needle is not where it was
+        this.pop = null;
+        this.fall = "";
+        this.ready = this.inside = false;
+      }
     }
-    const before = this.state;
     const peaks = laws.value.map(({ lower }) => Math.max(1e-9, ...lower.map(Math.abs)));
     const phases = history.byteColumn("phase");
     const forces = history.column("axial_force");

@@ -49,6 +49,17 @@ it("each thing to do is done when the ticks show it", () => {
   expect(progress.done).toBe(4);
 });
 
+it("a new run begins anew, until all is done once", () => {
+  ticks(5, true, 0.9);
+  pop();
+  ticks(5, true, 0.4);
+  expect(progress.done).toBe(3);
+  source.history.clear(1);
+  source.events.value = [];
+  ticks(5, false);
+  expect([progress.done, progress.fall, progress.ready]).toEqual([0, "", true]);
+});
+
 it("a single tick is enough, also between ticks that show nothing", () => {
   source.history.push(batch(10, 3, 1, { phase: (tick) => [tick === 11 ? STICKING : OUTSIDE] }));
   progress.follow(source);
