@@ -53,7 +53,7 @@ def test_going_through_the_back_wall_is_told_and_drawn_from_a_small_trace(page):
     expect(dialog.locator(".coach.change")).to_contain_text("You still moved in at ")
     expect(dialog).to_contain_text("Peak model force")
     expect(dialog.locator(".trace svg")).to_contain_text("model force (N)")
-    expect(dialog.locator(".trace svg")).to_contain_text("✕ lost")
+    expect(dialog.locator(".trace svg")).to_contain_text("✕ missed")
     assert len(fetched) == 1 and "/trace?" in fetched[0].url and len(fetched[0].body()) < 100_000
 
 
