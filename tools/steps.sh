@@ -26,9 +26,10 @@ choose_steps() {
 }
 
 # Steps that run side by side: each string is a row of steps, one after another. What compiles and computes goes beside
-# what waits for clocks, pages and processes. A row has its steps in the order of all_steps. Those that build/dev is for
-# are in one row, because two builds of one folder disturb each other; web brings the modules that page needs.
-rows=(tree format types "cpp asan tsan consumer examples instructions docs" "web page python" "$named_steps")
+# the Python tests, which wait for processes and clocks. The page comes last: a browser needs both cores for itself.
+# A row has its steps in the order of all_steps. Those that build/dev is for are in one row, because two builds of one
+# folder disturb each other; web brings the modules that page needs.
+rows=(tree format types "web cpp asan tsan consumer examples instructions docs page" python "$named_steps")
 
 # Groups of processes that run in the background; they end with this program, however it ends.
 groups=""
@@ -121,8 +122,8 @@ step_format() {
 }
 step_types() { mypy; }
 
-# compile PRESET [TARGET...]: configures if needed, then builds on all cores, with less weight than the browser that is
-# tested meanwhile. A build folder of another path is configured afresh. What the wheel's build has compiled is not
+# compile PRESET [TARGET...]: configures if needed, then builds on all cores, with less weight than the tests that run
+# meanwhile. A build folder of another path is configured afresh. What the wheel's build has compiled is not
 # compiled again in dev, and beside asan neither are the tests of the runtime that asan runs whole.
 compile() {
   local preset=$1 fresh="" settings=() beside_asan=OFF cache=build/$1/CMakeCache.txt
