@@ -60,9 +60,9 @@ def test_what_compiles_runs_beside_what_waits_and_the_steps_of_a_row_run_one_aft
     meet = "touch $1; for _ in $(seq 600); do if [ -e $2 ]; then return 0; fi; sleep 0.1; done; return 1"
     steps = (
         f"meet() {{ {meet}; }}; step_cpp() {{ meet a b && touch cpp_ended; }};"
-        "step_page() { meet b a; }; step_asan() { test -e cpp_ended; }"
+        "step_python() { meet b a; }; step_asan() { test -e cpp_ended; }"
     )
-    with start(tmp_path, steps, "cpp", "asan", "page") as run:
+    with start(tmp_path, steps, "cpp", "asan", "python") as run:
         printed = run.communicate(timeout=PATIENCE_S)[0]
     assert run.returncode == 0 and "3 passed, 0 failed" in printed
 
