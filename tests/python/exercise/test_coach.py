@@ -220,6 +220,10 @@ def test_no_praise_contradicts_what_is_to_change(write):
     left = way((-6, 5), (-6, 0, 1.2), (-4, 5), (-6, 5), (-6, 0, 0.4))
     tips = coached(write, left, goal("stay", seconds=3))
     assert "left" in about(tips.change) and "tremor" not in about(tips.good)
+    hit, never = BESIDE.replace("4]", "0]"), goal("never_pass", membrane="back vein wall")
+    tips = coached(write, way((-7, 5), (-7, 0, 3)), STAY, hit, never)
+    assert "to the side of its middle line" in about(tips.good)["line"]
+    assert "line" not in about(coached(write, way((-12, 5), (-12, 0, 1)), STAY, hit, never).good)
 
 
 LIMITS = [

@@ -46,6 +46,8 @@ class NeverPass(Goal):
 
 
 class NeverPassJudge(LimitJudge):
+    subjects = ("line",)  # who went through the wall behind a vein did not keep to its middle
+
     def __init__(self, goal: NeverPass, scene: Scene) -> None:
         super().__init__(goal.text or f"Do not go through the {goal.membrane}")
         self.membrane, self._whole = goal.membrane, goal.whole_tip
