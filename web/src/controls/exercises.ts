@@ -4,7 +4,7 @@ import { button, element, keptList, named, type Panel } from "../panel.ts";
 import type { App } from "../state/app.ts";
 import { backToStage, pageOf } from "../state/page.ts";
 import { resultPath } from "../wire/api.ts";
-import type { ExerciseOverview, ProblemPart, Result } from "../wire/messages.ts";
+import type { ExerciseOverview, ExerciseStatus, ProblemPart, Result } from "../wire/messages.ts";
 import { blockLine, watchBlock } from "./blocked.ts";
 import { sentence } from "./editor/problems.ts";
 import { DRAFT, expertChoice } from "./exercises/expert.ts";
@@ -14,7 +14,7 @@ import { openPart } from "./exercises/open.ts";
 import { pastResults } from "./exercises/past.ts";
 import { Person, personFields } from "./exercises/person.ts";
 import { openResult } from "./exercises/result_dialog.ts";
-import { showGoal, taskBar } from "./exercises/task.ts";
+import { lostWords, showGoal, taskBar } from "./exercises/task.ts";
 import { titleAmong } from "./exercises/title.ts";
 import type { Opens } from "./tabs.ts";
 
@@ -24,6 +24,7 @@ export const exercisesPanel: Panel = (host, app) => {
   const person = new Person();
   let known: readonly ExerciseOverview[] = [];
   let running = false;
+  let before: ExerciseStatus | null = null;
   const of = (name: string): ExerciseOverview | null => known.find((exercise) => exercise.name === name) ?? null;
   const titleOf = (name: string, title = of(name)?.title ?? name): string => titleAmong({ name, title }, known);
   const start = async (name: string): Promise<void> => {
@@ -101,6 +102,9 @@ export const exercisesPanel: Panel = (host, app) => {
   });
   app.live.scene.watch(() => showGoal(app, of));
   app.exercise.watch(async (status) => {
+    const lost = lostWords(before, status, titleOf(before?.exercise ?? ""));
+    before = status;
+    if (lost) app.notify(lost);
     showGoal(app, of);
     list.hidden = status?.running ?? false;
     maker.hidden = list.hidden;

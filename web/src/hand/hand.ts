@@ -66,9 +66,11 @@ export class Hand {
   }
 
   private reason(): string | null {
-    const { connection, hello, control, source } = this.app;
+    const { connection, hello, control, source, exercise } = this.app;
+    if ((connection.value.state !== "open" || !hello.value) && !this.app.engine.studio)
+      return "The core does not run in this page yet.";
     if (connection.value.state !== "open" || !hello.value)
-      return this.app.engine.studio ? goneWords(connection.value) : "The core does not run in this page yet.";
+      return goneWords(connection.value, exercise.value?.running ?? false);
     if (!hello.value.device.simulated) return `${hello.value.device.model} is the hand now: move its stylus.`;
     if (source.value.excerpt) return "A moment is shown again. Go back to the live run to move the needle.";
     if (source.value.paused) return "The page is paused. Go back to live to move the needle.";
@@ -170,9 +172,10 @@ export class Hand {
 }
 
 /** Why there is no connection, and what to do. */
-function goneWords(now: Connection): string {
+function goneWords(now: Connection, attempt: boolean): string {
   if (now.state === "refused") return `${now.reason.replace(/\.$/, "")}. Open the address that the studio prints.`;
-  const again = "If its program has ended, start it again (./run); else this page connects by itself.";
+  const ended = `If its program has ended, ${attempt ? "the attempt is lost: " : ""}start the studio again`;
+  const again = `${ended} and open the address that it prints; else this page connects by itself.`;
   const trying = now.state === "open" || (now.state === "connecting" && now.attempt <= 1);
   return trying ? "Connecting to the studio." : `The studio does not answer. ${again}`;
 }

@@ -51,10 +51,14 @@ it("tells who could move the needle, and that the studio is gone", () => {
     server.connection({ state: "lost", reason: "", retryInMs: 250 });
     expect(sentence.words([SKIN], INSIDE).text).toBe(
       session?.gone ??
-        "The studio does not answer. If its program has ended, start it again (./run); " +
-          "else this page connects by itself.",
+        "The studio does not answer. If its program has ended, start the studio again " +
+          "and open the address that it prints; else this page connects by itself.",
     );
   }
+  app.sitting.value = null;
+  app.exercise.value = { running: true, instruction: "Push slowly." } as ExerciseStatus;
+  server.connection({ state: "lost", reason: "", retryInMs: 500 });
+  expect(sentence.words([SKIN], INSIDE).text).toContain("If its program has ended, the attempt is lost: start");
 });
 
 it("says that the run goes on only while it does, and what to do when it is refused", () => {

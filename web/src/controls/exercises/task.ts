@@ -87,6 +87,13 @@ export function showGoal(app: App, of: (name: string) => ExerciseOverview | null
   if (JSON.stringify(now) !== JSON.stringify(next)) app.goal.value = next;
 }
 
+/** What to say if a studio that was started again knows nothing of the exercise that ran before; null if it does. */
+export function lostWords(before: ExerciseStatus | null, now: ExerciseStatus | null, title: string): string | null {
+  if (!before?.running || now?.exercise !== "") return null;
+  const again = "To begin again, press Start in the tab Exercises (on the stage: under More).";
+  return `The studio has started again, and the attempt is lost: ${title}. ${again}`;
+}
+
 /** "12 s of 60 s", or "12 s". It stands still before the first contact. */
 export function clockText({ time, time_limit }: Pick<ExerciseStatus, "time" | "time_limit">): string {
   const passed = `${Math.floor(time)} s`;

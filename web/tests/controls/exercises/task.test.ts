@@ -1,6 +1,6 @@
 import { expect, it, test } from "vitest";
 import { lossText, stateWord, verdict } from "../../../src/controls/exercises/goals.ts";
-import { clockText, heldShare, showGoal } from "../../../src/controls/exercises/task.ts";
+import { clockText, heldShare, lostWords, showGoal } from "../../../src/controls/exercises/task.ts";
 import { titleAmong } from "../../../src/controls/exercises/title.ts";
 import { App } from "../../../src/state/app.ts";
 import type { ExerciseOverview, ExerciseStatus, SceneView } from "../../../src/wire/messages.ts";
@@ -103,4 +103,16 @@ it("adds the name where two exercises have one title, and nowhere else", () => {
 
 it("tells the results of a removed exercise from those of one that is there", () => {
   expect(titleAmong({ name: "gone", title: "Epidural" }, known)).toBe("Epidural (gone)");
+});
+
+it("an attempt that a new studio does not know is told as lost, and an attempt that ended is not", () => {
+  const ended = running({ running: false });
+  const idle = { ...ended, exercise: "" };
+  expect(lostWords(running(), idle, "Mine")).toContain("the attempt is lost: Mine. To begin again, press Start");
+  for (const [before, now] of [
+    [running(), ended],
+    [ended, idle],
+    [null, idle],
+  ] as const)
+    expect(lostWords(before, now, "Mine")).toBeNull();
 });
