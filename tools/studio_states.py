@@ -197,7 +197,7 @@ BENCH: tuple[tuple[str, str, Act], ...] = (
     ("exercises", "venipuncture", opened_tab("Exercises")),
     ("maker", "venipuncture", maker),
     ("running", "venipuncture", running),
-    ("blind", "k06-fig12", blind),
+    ("blind", "two-membranes", blind),
     ("result", "venipuncture", exercise),
     ("lab", "venipuncture", opened_tab("Lab")),
     ("estimate", "k06-fig10", estimate),

@@ -109,7 +109,7 @@ def test_a_full_standard_output_is_told_as_such(arguments, unbuffered):
 def test_scenes_lists_names_and_membranes(punctura):
     lines = punctura("scenes").stdout.splitlines()
     assert [line.split()[0] for line in lines] == scene_names()
-    assert "k06-fig12     K06 Fig. 12: first membrane, second membrane" in lines
+    assert "k06-fig12      K06 Fig. 12: first membrane, second membrane" in lines
 
 
 def test_scenes_as_json_name_their_files(punctura):

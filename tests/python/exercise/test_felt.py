@@ -161,11 +161,11 @@ def test_what_is_expected_is_what_a_hand_gets():
     assert loss.drop == pytest.approx(expected.drop, rel=0.15)
 
 
-@pytest.mark.parametrize(("speed", "cut"), [(4.0, False), (1.0, True)])
-def test_whoever_waits_between_the_pops_of_the_blind_exercise_feels_less_of_the_force(speed, cut):
-    """8 mm to the first membrane's pop, then 8.2 mm at this speed, mm/s, and 3 s of rest."""
+@pytest.mark.parametrize("speed", [4.0, 1.0, 0.4])
+def test_no_limit_cuts_a_slow_hand_between_the_pops_of_the_blind_exercise(speed):
+    """8 mm to the first membrane's pop, then 9.5 mm at this speed, mm/s, and 3 s of rest."""
     exercise = load_exercise("blind")
-    axis, legs = np.asarray(exercise.start_axis), [WAIT, (2.0, 8.0), (8.2 / speed, 16.2), (3.0, 16.2)]
+    axis, legs = np.asarray(exercise.start_axis), [WAIT, (2.0, 8.0), (9.5 / speed, 17.5), (3.0, 17.5)]
     ticks = round(sum(seconds for seconds, _ in legs) * 1600)
     motion = motion_of(exercise, legs, axis)
     device = SimulatedDevice(motion, real_time=False, ticks=ticks, axis=axis)
@@ -176,4 +176,5 @@ def test_whoever_waits_between_the_pops_of_the_blind_exercise_feels_less_of_the_
     wait_until(lambda: device.finished)
     loop.stop()
     made = judged(exercise, dict(listener.read()), ticks, loop.scene, simulated=True).finish()
-    assert bool(made.metrics.force_cut) == cut
+    assert not made.metrics.force_cut
+    assert loss_of(made, "second membrane").drop > 1.5 * loss_of(made, "second membrane").needed

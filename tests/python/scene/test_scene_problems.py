@@ -247,5 +247,5 @@ def test_a_missing_file_and_a_folder_are_reported(tmp_path):
 def test_a_name_that_is_no_ready_scene_lists_those_that_are():
     assert lines("k06-fig1") == [
         "no file and no ready scene has this name; ready scenes: "
-        "epidural, k06-fig10, k06-fig11, k06-fig12, venipuncture"
+        "epidural, k06-fig10, k06-fig11, k06-fig12, two-membranes, venipuncture"
     ]

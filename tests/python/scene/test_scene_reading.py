@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from punctura import Insertion, load_scene, scene_names
-from punctura.scene import ServoSettings
+from punctura.scene import DisplaySettings, ServoSettings
 
 
 def test_every_value_arrives_in_si_rounded_once(write):
@@ -82,8 +82,8 @@ def push(name, depth, degrees=90.0, speed=5e-3):
     return way, -trace.force @ axis, trace
 
 
-def test_the_scenes_of_the_paper_and_two_procedures_are_there():
-    assert scene_names() == ["epidural", "k06-fig10", "k06-fig11", "k06-fig12", "venipuncture"]
+def test_the_scenes_of_the_paper_two_procedures_and_that_of_an_exercise_are_there():
+    assert scene_names() == ["epidural", "k06-fig10", "k06-fig11", "k06-fig12", "two-membranes", "venipuncture"]
 
 
 @pytest.mark.parametrize(
@@ -104,6 +104,11 @@ def test_the_paper_s_scenes_hold_the_values_of_its_section_4(name, thickness):
 def test_three_millimetres_lie_between_the_membranes_of_figure_12():
     first, second = load_scene("k06-fig12").membranes
     assert first.point[1] - first.membrane.thickness - second.point[1] == pytest.approx(3e-3)
+
+
+def test_two_membranes_are_those_of_figure_12_with_a_force_that_a_device_can_give_for_long():
+    figure = load_scene("k06-fig12")
+    assert load_scene("two-membranes") == figure.replace(name="Two membranes", display=DisplaySettings("automatic"))
 
 
 def test_the_thin_membrane_pops_from_0_73_to_0_41_newton():
