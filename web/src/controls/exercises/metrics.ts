@@ -18,8 +18,8 @@ const millimetres = (value: number | null): string => (value === null ? NONE : `
 export const peakText = ({ metrics }: { readonly metrics: Pick<Metrics, "peak_force"> }): string =>
   `${metrics.peak_force.toFixed(2)} N`;
 
-/** The measures of an attempt, with text and units. */
-export function metricRows(metrics: Metrics): MetricRow[] {
+/** The measures of an attempt, with text and units. space: where the exercise leads to. */
+export function metricRows(metrics: Metrics, space = "the space"): MetricRow[] {
   const { entry_angle: angle, straightness } = metrics;
   return [
     { label: "Entries", value: String(metrics.entries), help: "Number of entries into the first membrane." },
@@ -65,11 +65,11 @@ export function metricRows(metrics: Metrics): MetricRow[] {
       },
     ]),
     {
-      label: "Time in the space",
+      label: `Time in ${space}`,
       value: seconds(metrics.dwell),
-      help: "Total time of the tip’s point in the space; of the whole tip if the goal asks for it.",
+      help: "Total time of the tip’s point there; of the whole tip if the goal asks for it.",
     },
-    { label: "Longest stay", value: seconds(metrics.longest_stay), help: "Longest time in the space without a break." },
+    { label: "Longest stay", value: seconds(metrics.longest_stay), help: `Longest time in ${space} without a break.` },
     {
       label: "Path straightness",
       value: straightness === null ? NONE : straightness.toFixed(2),
@@ -86,7 +86,7 @@ export function metricRows(metrics: Metrics): MetricRow[] {
       help: "Angle between the needle and the first surface.",
     },
     {
-      label: "Time to the space",
+      label: `Time to ${space}`,
       value: seconds(metrics.time_to_target),
       help: "From the first contact to the first arrival.",
     },

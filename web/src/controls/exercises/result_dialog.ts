@@ -60,7 +60,7 @@ export function openResult(
       "div",
       { class: "two" },
       element("section", {}, element("h3", {}, "Goals"), goalList(result.goals)),
-      element("section", {}, element("h3", {}, "Measures"), table(result)),
+      element("section", {}, element("h3", {}, "Measures"), table(result, exercise)),
     ),
     place,
     ...(result.name === DRAFT
@@ -168,8 +168,8 @@ function closeWhenOver(app: App, close: () => void): (() => void)[] {
   ];
 }
 
-function table(result: Result): HTMLElement {
-  const rows = metricRows(result.metrics).map(({ label, value, help }) =>
+function table(result: Result, exercise: ExerciseOverview | null): HTMLElement {
+  const rows = metricRows(result.metrics, exercise?.space_name).map(({ label, value, help }) =>
     element("tr", { title: help }, element("th", { scope: "row" }, label), element("td", {}, value)),
   );
   return element("table", { class: "metrics" }, element("tbody", {}, ...rows));

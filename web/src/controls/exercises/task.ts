@@ -120,7 +120,7 @@ function holdRing(): { root: HTMLElement; show(status: ExerciseStatus): void } {
     class: "hold-ring",
     role: "progressbar",
     "aria-valuemin": 0,
-    "aria-label": "Time in the space",
+    "aria-label": "Time held",
   });
   root.append(drawing);
   return {

@@ -63,14 +63,14 @@ test("what the thumb felt is told, or that it was a key", () => {
 });
 
 test("measures are told in units for people; what there was not is a dash", () => {
-  const rows = new Map(metricRows(metrics).map(({ label, value }) => [label, value]));
+  const rows = new Map(metricRows(metrics, "the vein").map(({ label, value }) => [label, value]));
   expect(Object.fromEntries(rows)).toMatchObject({
     Entries: "2",
     "Peak model force": "0.90 N",
     "Overshoot after skin": "2.1 mm",
     "Path straightness": "–",
     "Angle of entry": "30 degrees",
-    "Time to the space": "–",
+    "Time to the vein": "–",
   });
   expect(rows.has("Ticks lost")).toBe(false);
   const cut = metricRows({ ...metrics, force_cut: { "long-run limit": 1.24 } }).at(-1);
