@@ -50,6 +50,9 @@ def test_the_stage_tells_a_cut_force_with_what_to_do_also_without_a_device(
                 break
         expect(cut).to_contain_text("Force cut: long-run limit, 0.")
         expect(cut).to_contain_text("Draw back a little")
+        page.set_viewport_size({"width": 390, "height": 844})
+        box = cut.bounding_box()
+        assert box and box["width"] > 260 and box["height"] < 80  # some lines, and no column of single words
 
 
 def test_the_scale_stands_where_a_force_is_and_a_loss_that_cannot_be_felt_is_told_before_the_start(

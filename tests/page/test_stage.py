@@ -39,6 +39,20 @@ ROWS = """() => {
   return rows.size;
 }"""
 
+# Each pop's mark says which membrane gave way, and no mark lies over the curve's line.
+MARKED = """() => {
+  const canvas = document.querySelector(".stage-curve canvas");
+  const marks = [...document.querySelectorAll(".stage-marks button")];
+  const {width, height} = canvas;
+  const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
+  let most = 0;
+  for (let i = 0; i < data.length; i += 4)
+    if (data[i + 3] > 200 && data[i] + data[i + 1] + data[i + 2] < 120) most = Math.max(most, (i / 4) % width);
+  const name = (at) => at.offsetWidth > 9 && /skin|vein/.test(at.textContent);
+  const named = (mark) => [...mark.querySelectorAll("span")].some(name);
+  const from = canvas.getBoundingClientRect().left;
+  return marks.length === 3 && marks.every((mark) => named(mark) && mark.getBoundingClientRect().left - from > most);
+}"""
 # Beside the tissue, nothing of the view is seen through the curve: left, at the numbers of the depth, and right.
 OPAQUE = """() => {
   const canvas = document.querySelector(".stage-curve canvas");
@@ -156,6 +170,17 @@ def test_the_curve_keeps_the_whole_attempt_until_again_and_shows_its_pop_again_s
     expect(marks(page)).to_have_count(0)
     expect(sentence).to_contain_text("the needle is out")
     page.wait_for_function(f"() => ({ROWS})() < ({before} + {pushed}) / 2")  # what is left is the way out, in air
+
+
+def test_each_pop_has_its_name_beside_the_curve(page):
+    view(page).focus()
+    for _ in range(200):
+        push_step(page)
+        if marks(page).count() == 3:
+            break
+    for size in SIZES:
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        page.wait_for_function(MARKED)
 
 
 def test_a_held_key_goes_on_moving_the_needle_while_the_bench_comes(page):

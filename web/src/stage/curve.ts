@@ -15,7 +15,8 @@ const TOP = 2.6; // widths of a letter: the name and the numbers of the force
 const EDGE = 10; // px
 const NAME_EDGE = 6; // px, left and right of a layer's name
 const PULL = 0.3; // of the greatest force: room for a force that pulls
-const MARKS = 8; // widths of a letter: the room for the buttons, right of the greatest force
+const MARKS = 9; // widths of a letter: the room for the buttons, right of the greatest force
+const SEAM = 20; // points that are drawn again with new ones: pieces of less than a pixel do not cover one
 const NAMES = 0.45; // of the width without the buttons: the most that the names take, left of the curve
 
 /** What the curve shows at present. */
@@ -57,10 +58,12 @@ export class CurvePicture {
   private letter = 13; // px
   private changes = 0;
   private drawn = "";
+  private attempt: Attempt | null = null;
+  private generation = -1; // of the attempt
   private points = 0; // of the attempt that are drawn
   private most = 0;
   private bottom = 0; // mm, of the scene's layers
-  private deep = 0; // mm, to which bands and axis go
+  private deep = 0; // mm, to which the axis goes
   private depth: (mm: number) => number = () => 0;
   private axis = 0; // px, where the lines of the force begin, below its numbers
 
@@ -88,12 +91,18 @@ export class CurvePicture {
     const { theme, width, height } = this;
     if (!theme || width < 60 || height < 60) return false;
     const { attempt, bands, beside } = shown;
+    const { generation, pops } = attempt;
+    if (attempt !== this.attempt || generation !== this.generation) {
+      // Another curve: how great forces and depths were is forgotten.
+      [this.attempt, this.generation] = [attempt, generation];
+      this.most = this.bottom = 0;
+      this.changes++;
+    }
     while (this.most < shown.most) this.most = Math.max(shown.most, 1.3 * this.most);
     this.deepen(shown);
     const scale = beside ? [beside.top, beside.scale.px(0), beside.scale.px(beside.scale.deep)] : [];
-    const { generation, pops } = attempt;
     const named = [bands.length, bands.at(-1)?.bottom];
-    const state = [this.changes, generation, pops.length, this.most, this.deep, ...named, ...scale].join(" ");
+    const state = [this.changes, pops.length, this.most, this.deep, ...named, ...scale].join(" ");
     const anew = state !== this.drawn;
     if (anew) {
       this.drawn = state;
@@ -110,12 +119,7 @@ export class CurvePicture {
     return anew;
   }
 
-  /** Forgets how great the forces and depths were. */
-  forget(): void {
-    this.most = this.bottom = 0;
-  }
-
-  /** Bands and axis go as deep as the scene's layers, the needle and the goal: the tissue behind has no end. */
+  /** The axis goes as deep as the scene's layers, the needle and the goal; the bands end with the drawn tissue. */
   private deepen({ attempt, bands, goal }: Shown): void {
     const bottom = bands.at(-1)?.bottom ?? 10;
     if (bottom !== this.bottom) this.bottom = this.deep = bottom;
@@ -124,29 +128,29 @@ export class CurvePicture {
   }
 
   /**
-   * Puts buttons in a column on the right, none over another, each with a line to its place on the curve. Those of the
-   * last pops, if there is no room for all.
+   * Puts buttons in a column on the right, none over another, each with a line to its place on the curve. They say
+   * less if they are many. Where there is no room for all, those of the last pops are there, and the others' dots.
    */
   place(buttons: readonly Mark[]): void {
-    const { pen, theme } = this;
+    const { pen, theme, marks } = this;
     if (!theme) return;
-    const { classList } = this.marks;
     for (const { button } of buttons) button.hidden = false;
-    classList.remove("many");
-    const tall = (): number => Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
-    const fit = (): number => Math.floor(this.height / (tall() + 2));
-    classList.toggle("many", fit() < buttons.length); // one line each
-    for (const { button } of buttons.slice(0, Math.max(0, buttons.length - fit()))) button.hidden = true;
-    this.draw(
-      buttons.filter(({ button }) => !button.hidden),
-      tall(),
-      pen,
-      colourOf(theme, 1),
-      theme,
-    );
+    let high = 0;
+    let fit = 0;
+    for (const words of ["all", "two", "name"]) {
+      marks.dataset.words = words;
+      high = Math.max(0, ...buttons.map(({ button }) => button.offsetHeight));
+      fit = Math.floor(this.height / (high + 2));
+      if (fit >= buttons.length) break;
+    }
+    const first = Math.max(0, buttons.length - fit);
+    for (const { button } of buttons.slice(0, first)) button.hidden = true;
+    const colour = colourOf(theme, 1);
+    this.draw(buttons.slice(first), high, pen, colour);
+    for (const { force, depth } of buttons) pen.dot(this.force.px(force), this.depth(depth), 4, colour, theme.panel);
   }
 
-  private draw(buttons: readonly Mark[], high: number, pen: CanvasPen, colour: string, theme: Theme): void {
+  private draw(buttons: readonly Mark[], high: number, pen: CanvasPen, colour: string): void {
     const middles = apart(
       buttons.map(({ depth }) => this.depth(depth)),
       high + 2,
@@ -156,7 +160,6 @@ export class CurvePicture {
       const left = this.width - EDGE - button.offsetWidth;
       const [x, y] = [this.force.px(force), this.depth(depth)];
       pen.segment(x, y, left, middles[i]!, { colour, width: 1.5 });
-      pen.dot(x, y, 4, colour, theme.panel);
       button.style.transform = `translate(${left.toFixed(0)}px, ${(middles[i]! - high / 2).toFixed(0)}px)`;
     });
   }
@@ -187,7 +190,7 @@ export class CurvePicture {
 
   private drawBands(bands: readonly Band[], theme: Theme): void {
     const { pen, width, depth } = this;
-    for (const { tone, membrane, top, bottom } of this.toEnd(bands)) {
+    for (const { tone, membrane, top, bottom } of bands) {
       const high = Math.max(2, depth(bottom) - depth(top));
       const colour = tone
         ? `rgb(${tone.map(Math.round).join(" ")})`
@@ -196,10 +199,6 @@ export class CurvePicture {
           : colourOf(theme, membrane);
       if (colour) pen.box(AXIS, depth(top), width - AXIS, high, colour, tone ? 0.5 : 0.3);
     }
-  }
-
-  private toEnd(bands: readonly Band[]): readonly Band[] {
-    return bands.map((band, i) => (i === bands.length - 1 ? { ...band, bottom: this.deep } : band));
   }
 
   private drawAxes(bands: readonly Band[], theme: Theme): void {
@@ -228,7 +227,7 @@ export class CurvePicture {
       pen.text(AXIS - 7, y, label(value, down), { ...quiet, anchor: "end" });
     }
     // Of the layers, on the left, where only a force that pulls is drawn; over the lines.
-    for (const { name, y } of placedNames(this.toEnd(bands), depth, letter, height - EDGE)) {
+    for (const { name, y } of placedNames(bands, depth, letter, height - EDGE)) {
       const text = shortened(name, force.px(0) - AXIS - 2 * NAME_EDGE, letter - 1);
       pen.text(AXIS + NAME_EDGE, y, text, { colour: theme.text, size: letter - 1, halo: theme.panel });
     }
@@ -238,7 +237,7 @@ export class CurvePicture {
     const { pen, piece, force, depth } = this;
     if (path.count <= this.points) return;
     piece.clear();
-    for (let i = Math.max(0, this.points - 1); i < path.count; i++) {
+    for (let i = Math.max(0, this.points - SEAM); i < path.count; i++) {
       if (Number.isNaN(path.ys[i]!)) piece.gap();
       else piece.add(force.px(path.xs[i]!), depth(path.ys[i]!));
     }
@@ -278,7 +277,7 @@ export function shortened(name: string, room: number, size: number): string {
   return `${name.slice(0, Math.max(1, most - 1 - number.length)).trimEnd()}…${number}`;
 }
 
-/** How deep bands and axis go, mm, if they must go so deep: in steps, because all is drawn anew at each. */
+/** How deep the axis goes, mm, if it must go so deep: in steps, because all is drawn anew at each. */
 export const endOf = (deep: number, needed: number): number =>
   needed > deep ? Math.max(1.05 * needed, 1.2 * deep) : deep;
 

@@ -14,10 +14,11 @@ import { type Band, bandsOf } from "../tissue/bands.ts";
 import { asTissue } from "../tissue/layers.ts";
 import type { MembraneEvent, SceneView } from "../wire/messages.ts";
 import { Attempt, feltAt, strongestAt, wholeOf } from "./attempt.ts";
-import { CurvePicture } from "./curve.ts";
+import { CurvePicture, shortened } from "./curve.ts";
 import { Sentence } from "./sentence.ts";
 
 const ROOM = 1.15; // of the axis, beyond the greatest force
+const SHORT = 7; // widths of a letter: of a pop's name where there is little room
 const WORDS_MS = 100; // between two numbers; faster ones cannot be read
 
 /** What opens first: one sentence, one force and one curve over the view, and three buttons. */
@@ -43,7 +44,6 @@ export const stage: Panel = (root, app) => {
   const again = button("Again", "A new attempt: the needle goes back, and the curve begins anew", () => {
     app.goLive();
     attempts.live.begin();
-    curve.forget();
     handOf(app).home();
     framing.again.value++;
   });
@@ -56,7 +56,8 @@ export const stage: Panel = (root, app) => {
     { class: "stage", "aria-label": "Stage" },
     element("h1", { class: "only-read" }, "Punctura"),
     element("div", { class: "stage-words" }, words, take),
-    element("div", { class: "stage-force" }, force, name, syringe, cut),
+    element("div", { class: "stage-force" }, force, name, syringe),
+    cut,
     free,
     curve.root,
     buttons,
@@ -228,7 +229,7 @@ class Marks {
   }
 
   private add(event: MembraneEvent, source: Source): HTMLElement {
-    const drop = feltDropText(source.history, event);
+    const drop = unbroken(feltDropText(source.history, event));
     const button = element(
       "button",
       {
@@ -236,9 +237,9 @@ class Marks {
         title: SHOW_AGAIN,
         onclick: () => showAgain(this.app, event),
       },
-      // The first one says what they are; there is no room for the name at each.
-      element("span", { class: this.known.size ? "only-read" : "stage-pop" }, `Pop: ${event.name} `),
-      element("span", {}, drop),
+      element("span", { class: "stage-pop" }, `Pop: ${event.name} `),
+      element("span", { class: "stage-short", "aria-hidden": "true" }, shortened(event.name, SHORT, 1)),
+      element("span", { class: "stage-drop" }, `${drop} `),
       element("span", { class: "stage-slowly" }, "again, slowly"),
     );
     this.curve.marks.append(button);
