@@ -32,7 +32,7 @@ from punctura.identify.profile import BetterPoint
 from punctura.identify.records import IdentificationRecord
 from punctura.identify.rig import UNKNOWN, Rig, RigValue, check
 from punctura.identify.scene import scene_of
-from punctura.identify.search import thinned, weighted
+from punctura.identify.search import in_means, mean_words, thinned, weighted
 from punctura.identify.slow_noise import with_slow_noise
 from punctura.identify.smeared_force import smeared_rig, smeared_walls, smeared_words, without_smeared
 from punctura.identify.uncertainty import Uncertainty
@@ -62,7 +62,7 @@ ENDED = (
 class Identification:
     """Membranes identified from a trace. `estimates` have the 95 % intervals, `verdicts` say what cannot be told."""
 
-    trace: Trace  # that was fitted: each k-th sample of a force that is smoothed over k samples
+    trace: Trace  # that was fitted: of a force that is smoothed over k samples each k-th, of a long trace means
     segments: Segments  # its contact, strokes and pops
     fit: Fit  # the best one
     estimates: tuple[Estimate, ...]
@@ -148,9 +148,12 @@ def identify(
 def _identified(
     trace: Trace, needle: Needle, membranes: int | Literal["auto"], report: Callable[[str], None], rig: Rig
 ) -> Identification:
-    given, (trace, filtered) = trace, without_smeared(trace, segment(trace))
-    trace, noise = with_quiet_depth(trace, rig.depth_noise)
+    given, (few, filtered) = trace, without_smeared(trace, segment(trace))
+    smooth, words = len(few) < len(given), smeared_words(given, few)
+    quiet, noise = with_quiet_depth(few, rig.depth_noise)
     known = [RigValue("depth_noise", noise, "m", rig.depth_noise is not None)] if noise else []
+    trace = in_means(quiet, segment(quiet))
+    words += mean_words(quiet, trace)
     segments = segment(trace)
     few = thinned(trace)
     all_used = len(few) == len(trace)
@@ -187,7 +190,7 @@ def _identified(
     if wide.values():
         report("tolerances of the rig")
         found = with_tolerance(found, final, wide)
-    found = smeared_walls(found, trace) if len(trace) < len(given) else found
+    found = smeared_walls(found, trace) if smooth else found
     known += [one for one in rig.values() if trace.time is not None or one.unit != "s"]
     late = {one.name: one for one in found if one.name in LATE}
     known += [RigValue(name, one.value, one.unit, False) for name, one in late.items()]
@@ -199,7 +202,7 @@ def _identified(
     of_few = few_fit, choice.search.rule.air, doubt.explained.ok
     advice = verdicts(found, trace, segments, *of_few, whitened)
     advice = (
-        *smeared_words(given, trace),
+        *words,
         *noise_not_used(trace, rig.depth_noise),
         *late_words(late, trace, rig),
         *not_told_apart(choice.search, choice.current),

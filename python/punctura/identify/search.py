@@ -18,7 +18,31 @@ from punctura.trace import Segments, Trace, TraceError
 
 WEIGHTED = 2  # fits, each with the weights that the one before shows
 SEARCHED = 600  # samples of a search; the last fit uses all
+MOST_SAMPLES, MOVING = 4000, 1000  # of a trace, about; and of its motion, at least, if it has more
 MOST_EVALUATIONS = 5000  # of the derivatives: then no further extension, late sensor or wall is tried
+
+
+def in_means(trace: Trace, segments: Segments) -> Trace:
+    """A long trace as means of neighbouring samples, fewer than twice MOST_SAMPLES; the same trace if it is short.
+
+    White noise becomes smaller by the square root of their number, and slow noise stays, so the means tell as much. A
+    rest, however long, leaves at least MOVING samples of the motion.
+    """
+    moving = sum(stroke.end - stroke.start for stroke in segments.strokes if stroke.kind != "hold")
+    count = min(len(trace) // MOST_SAMPLES, moving // MOVING)
+    return trace.means(count) if count > 1 else trace
+
+
+def mean_words(before: Trace, after: Trace) -> tuple[str, ...]:
+    """A sentence for a trace of which means are used."""
+    if len(after) == len(before):
+        return ()
+    way = float(np.median(np.abs(np.diff(after.depth))))
+    return (
+        f"The trace has {len(before)} samples, so the fit is to the {len(after)} means of each "
+        f"{len(before) // len(after)} neighbouring ones, {way * 1e3:.2g} mm apart. Samples and noise are those of the "
+        "means.",
+    )
 
 
 def thinned(trace: Trace) -> Trace:

@@ -149,7 +149,8 @@ def smeared(*air: Array) -> int:
 
 def _alike(parts: Sequence[Array], most: int) -> Array:
     """The correlation of values with those up to `most` samples behind, over all parts; the first is 1, or 0."""
-    alike = np.sum([np.correlate(one, one, "full")[len(one) - 1 :][: most + 1] for one in parts], axis=0)
+    spectra = [np.fft.rfft(one, 2 * len(one)) for one in parts]  # with zeros behind: no end meets the beginning
+    alike = np.sum([np.fft.irfft(np.abs(one) ** 2)[: most + 1] for one in spectra], axis=0)
     return np.asarray(alike / alike[0]) if alike[0] > 0 else alike
 
 

@@ -102,6 +102,23 @@ class Trace:
         depth, force = self.depth[which], self.force[which]
         return replace(self, depth=depth, force=force, time=time, depths=depths, rig=rig, slide=slide)
 
+    def means(self, count: int) -> Trace:
+        """The means of each `count` samples in turn. At the beginning, up to count - 1 samples are left out."""
+        first = len(self) % count
+
+        def of(column: Array) -> Array:
+            return np.asarray(column[first:].reshape(-1, count, *column.shape[1:]).mean(axis=1))
+
+        return replace(
+            self,
+            depth=of(self.depth),
+            force=of(self.force),
+            time=None if self.time is None else of(self.time),
+            depths=None if self.depths is None else of(self.depths.T).T,
+            rig=None if self.rig is None else of(self.rig),
+            slide=None if self.slide is None else replace(self.slide, way=of(self.slide.way)),
+        )
+
     @cached_property
     def strokes(self) -> NDArray[np.int64]:
         """The number of the insertion that each sample belongs to (n,): 0 for the first, with its withdrawal."""
