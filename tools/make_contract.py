@@ -159,7 +159,7 @@ def messages() -> dict[str, Any]:
         {"id": 15, "do": "save_exercise", "name": "mine", "tables": {"title": "Mine"}, "replace": False},
         {"id": 23, "do": "open_exercise", "name": "mine", "file": "dGl0bGU=", "replace": False},
         {"id": 16, "do": "delete_exercise", "name": "mine"},
-        {"id": 24, "do": "respond", "question": 4, "answer": "yes"},
+        {"id": 24, "do": "respond", "question": 4, "answer": "yes"}, {"id": 25, "do": "sound", "plays": True},
         {"id": 12, "do": "set_expert", "exercise": "venipuncture", "recording": "r"},
     ]  # fmt: skip
     refused = [

@@ -26,7 +26,7 @@ Done: TypeAlias = tuple[str, dict[str, str | int]]  # a reply's text and data
 Job = Callable[[Session], "Done | Future[Done] | None"]
 
 
-IN_SITTING = (ask.Respond, ask.TripFault)  # and a pause; "Go on" turns the force on
+IN_SITTING = (ask.Respond, ask.Sound, ask.TripFault)  # and a pause; "Go on" turns the force on
 
 
 class NotNow(ValueError):
@@ -41,6 +41,8 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
     match request:
         case ask.Respond():
             return lambda session: _respond(session, request)
+        case ask.Sound():
+            return lambda session: _sound(session, request.plays)
         case ask.Arm():
             return lambda session: session.arm()
         case ask.Reset():
@@ -86,6 +88,11 @@ def refusal(number: int, error: Exception) -> Reply:
 def _respond(session: Session, request: ask.Respond) -> None:
     if session.sitting:
         session.sitting.respond(request.question, request.answer)
+
+
+def _sound(session: Session, plays: bool) -> None:
+    if session.sitting:
+        session.sitting.noise_plays = plays
 
 
 def _prepare_scene(request: ask.Edit | ask.Load | ask.LoadText) -> Job:

@@ -44,6 +44,7 @@ class PerceptionSitting:
 
     what = "session"
     end_at: float | None = None
+    noise_plays = False
 
     def __init__(
         self, studio: Session, protocol: Protocol, base: Loaded, participant: str, tell: Callable[[str], None]
@@ -166,6 +167,10 @@ class PerceptionSitting:
         self._studio.arm()
         self._begin()
 
+    def _this(self) -> str:
+        assert self._answers
+        return f"trial {self._answers.course.at + 1} of {self._participant}"
+
     def _name(self) -> str:
         return f"{self._participant}-{self._trial.number:04d}-{self._attempt}"
 
@@ -237,9 +242,8 @@ class PerceptionSitting:
         studio.run.loop.pause()
 
     def _again(self, why: Spoilt) -> None:
-        assert self._answers
         self._studio.run.loop.pause()  # the run may be the one before, which began again
-        self._tell(f"trial {self._answers.course.at + 1} of {self._participant} is repeated: {why}")
+        self._tell(f"{self._this()} is repeated: {why}")
         words = getattr(self._words, why.word)
         self._say(f"{words} {self._words.repeated} {self._words.wait}", GO, lambda _: self._armed())
 
@@ -253,6 +257,8 @@ class PerceptionSitting:
         self._say(self._words.paused, GO, then)
 
     def _ask(self, felt: list[Felt]) -> None:
+        if self._protocol.file.noise and not self.noise_plays:
+            self._tell(f"{self._this()} was felt without the masking noise: press a key or click at the page")
         answers, question = self._protocol.answers, self._protocol.file.question
         number = "" if answers else self._words.number
         self._say(question, answers, lambda answer: self._save(answer, felt), typed=number)

@@ -109,6 +109,7 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         person.goes_through("Durchgang 1, Teil 2: push the needle through the tissue")
         person.reads("Which one fell more?")
         assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
+        assert TOLD[-1].startswith("trial 1 of P01 was felt without the masking noise: press a key or click")
         person.answers("zweite")
         person.reads("Durchgang 2")
         (first,) = saved(tmp_path)

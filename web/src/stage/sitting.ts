@@ -95,10 +95,16 @@ const NOISE_S = 20;
 function maskingNoise(app: App): { begin: () => void; show: () => void; missing: HTMLElement } {
   const missing = element("p", { role: "status", hidden: true });
   let context: AudioContext | null = null;
+  let told: boolean | null = null; // to the studio
   const show = (): void => {
+    const plays = context?.state === "running";
     missing.textContent = app.sitting.value?.sound ?? "";
-    missing.hidden = !app.sitting.value?.noise || context?.state === "running";
+    missing.hidden = !app.sitting.value?.noise || plays;
+    const heard = app.sitting.value?.noise && app.control.value.you && app.connection.value.state === "open";
+    if (heard && told !== plays) void app.ask({ do: "sound", plays });
+    told = heard ? plays : null;
   };
+  app.control.watch(show);
   const begin = (): void => {
     if (!app.sitting.value?.noise) return;
     context ??= noise(show);

@@ -194,6 +194,13 @@ class Respond(_Request):
     answer: Annotated[str, Field(max_length=80)]
 
 
+class Sound(_Request):
+    """Whether the page plays the masking noise of a participant's session. Browsers refuse it before a key or click."""
+
+    do: Literal["sound"] = "sound"
+    plays: bool
+
+
 class TripFault(_Request):
     """Feeds the gate a position that is not a number, to demonstrate a fault. Simulated device only."""
 
@@ -203,7 +210,7 @@ class TripFault(_Request):
 NumberedRequest = (
     TakeControl | Arm | Pause | Reset | Strokes | PushPlunger | PlayMotion | Edit | Load | LoadText | Compare
     | Estimate | StartRecording | StopRecording | StartExercise | EndExercise | SetExpert
-    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | TripFault
+    | CheckExercise | TryExercise | SaveExercise | OpenExercise | DeleteExercise | Respond | Sound | TripFault
 )  # fmt: skip
 Request = Annotated[NumberedRequest | Target | Awake | Took, Field(discriminator="do")]
 
