@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyarrow as pa
 
+from punctura import __version__
 from punctura.files.whole_file import write_whole
 from punctura.perception.analysis import END, RATE, Answers, analyse, answers_of, belief_of, felt_level
 from punctura.perception.course import Line, counted
@@ -52,6 +53,7 @@ SAME_ORDER = (
     "{names} have the same number, {number}, and so the same order of trials: its effects are not balanced over them. "
     "If all begin in one folder, each has a number of its own."
 )
+OTHER_VERSION = "{names} began with Punctura {version}, and this is {here}: what was felt is as {version} computed it."
 OPEN_END = (
     '"At least" and "at most": all answers of a kind were alike, so one end is open. About '
     f"{-np.log(1 - LEVEL) / (RATE - END):.0f} times as many such trials would most likely close it, or fewer with "
@@ -68,6 +70,7 @@ CAPTIONS = {
     "rates": "Circles: the mean at a level. Line: least squares; the interval of its slope is in the table.",
     "adjusts": "Circles: the settings, one after the other. Line: their mean; its interval is in the table.",
 }
+OF_LEVELS = "UNIT"  # of the protocol's variable, once there is one
 # Column, type, unit, meaning. "comparison" is the interval that has the level of the trial.
 DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("participant", pa.string(), "", "pseudonym"),
@@ -77,8 +80,8 @@ DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("trial", pa.int64(), "", "number of the trial in the session, from 0, practice included"),
     ("block", pa.int64(), "", "from 0"),
     ("kind", pa.string(), "", "practice, trial or catch; only trial is in the fit"),
-    ("level", pa.float64(), "that of the variable", "planned level of the comparison"),
-    ("felt_level", pa.float64(), "that of the variable", "the level as it was felt, if the variable is in newtons"),
+    ("level", pa.float64(), OF_LEVELS, "planned level of the comparison"),
+    ("felt_level", pa.float64(), OF_LEVELS, "the level as it was felt, if the variable is in newtons"),
     ("position", pa.int64(), "", "interval of the comparison, from 0"),
     ("answer", pa.string(), "", "as the task names it"),
     ("counted", pa.bool_(), "", "whether the answer is yes, the comparison or right; empty for numbers and settings"),
@@ -117,10 +120,12 @@ def write_report(protocol: Protocol, folder: Path) -> Analysis:
     for one in analysis.people:
         header = headers[one.participant]
         one.number, one.device, one.device_simulated = header.number, header.device, header.device_simulated
+        one.version = header.version
         one.planned = unfinished.get(one.participant, 0)
         rows += [_row(protocol, header, line) for line in found[one.participant] if not one.copy_of]
     table = pa.Table.from_pylist(rows, pa.schema([pa.field(name, kind) for name, kind, *_ in DICTIONARY]))
-    about = [dict(zip(("column", "type", "unit", "meaning"), map(str, row), strict=True)) for row in DICTIONARY]
+    units = [[str(cell).replace(OF_LEVELS, protocol.unit) for cell in row] for row in DICTIONARY]
+    about = [dict(zip(("column", "type", "unit", "meaning"), row, strict=True)) for row in units]
     _check_kept(folder, found)
     for name, content in zip(TABLES, (table, table, pa.Table.from_pylist(about)), strict=True):
         save(content, folder / name, private=True)
@@ -193,6 +198,9 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
     for device, simulated in sorted({(one.device, one.device_simulated) for one in found.people if one.device}):
         names = ", ".join(one.participant for one in found.people if one.device == device)
         lines += [f"Device of {names}: {_safe(device)}{NO_FORCE * simulated}.", ""]
+    for version in sorted({one.version for one in found.people} - {__version__}):
+        names = " and ".join(one.participant for one in found.people if one.version == version)
+        lines += [OTHER_VERSION.format(names=names, version=_safe(version), here=__version__), ""]
     numbered = [(one.number, one.participant) for one in found.people if not one.copy_of]
     for number in sorted({number for number, _ in numbered if number is not None}):
         alike = [name for other, name in numbered if other == number]
@@ -209,11 +217,8 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         lines += _table(head, rows)
     if any(np.isinf([*each.dprime, *each.criterion]).any() for one in detected for each in one.detection):
         lines += [OPEN_END, ""]
-    if (
-        protocol.shape.bends
-        and protocol.shape.one_sided
-        and (told := [one.trials for one in found.people if one.lapse])
-    ):
+    told = [one.trials for one in found.people if one.lapse and protocol.shape.bends and protocol.shape.one_sided]
+    if told:
         each = min(told) // len(protocol.levels)
         lines += [SHAPES.format(each=each), ""] * (each < TELL_SHAPE)
     caught = [one for one in found.people if one.catch_trials]

@@ -35,6 +35,7 @@ class Person(BaseModel):
     copy_of: str = ""  # the participant whose session this is, too; then it is not counted
     device: str = ""  # its model; empty for an observer
     device_simulated: bool = False  # then no hand felt a force
+    version: str = ""  # of Punctura, with which the session began
     trials: int  # scored
     planned: int = 0  # scored trials of a whole session; 0 if it is whole
     threshold: Estimate | None = None  # the point of subjective equality, or the level of half the answers, or the

@@ -12,7 +12,7 @@ from pathlib import Path
 from pydantic import BaseModel, NonNegativeInt, ValidationError
 
 from punctura import PuncturaError, __version__
-from punctura.errors import FREE_SPACE, Problem, is_full
+from punctura.errors import FREE_SPACE, is_full
 from punctura.files.whole_file import private, private_folder, sync
 from punctura.perception.course import Course, Line, Trial, line_of
 from punctura.perception.protocol import Protocol
@@ -22,8 +22,6 @@ from punctura.record.new_file import in_use, lock
 
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 SUFFIX = ".jsonl"
-MOST_N = 1000.0  # of a felt force: no device gives as much to a hand
-MOST_TOLD = 5  # differences of a file from the planned session
 TABLES = ("trials.csv", "trials.parquet", "dictionary.csv")
 WRITTEN = ("report.md", "report.html", "functions.svg", "results.json", *TABLES)  # by the analysis
 
@@ -162,46 +160,38 @@ def check_header(header: Header, protocol: Protocol, path: Path) -> None:
     for key, wanted in (("protocol", protocol.name), ("digest", protocol.digest)):
         if (found := getattr(header, key)) != wanted:
             raise SessionError(
-                f"{path} is a session of another protocol or of a changed one ({key} {found!r}, now {wanted!r}): give "
-                "the same protocol again, or another folder"
+                f"{path} is a session of another protocol or of a changed one ({key} {found!r}, now {wanted!r}; it "
+                f"began with Punctura {header.version}): give the same protocol again, or another folder"
             )
     if header.participant != path.stem:
         raise SessionError(f"{path} is the session of {header.participant}: give the file its old name")
 
 
 def replayed(protocol: Protocol, header: Header, lines: Sequence[Line], path: Path) -> Course:
-    """The course after these trials. Raises SessionError with each value that is not the planned one."""
-    course, wrong = Course(protocol, header.number), list[Problem]()
+    """The course after these trials. Raises SessionError with the first value that is not the planned one."""
+    course = Course(protocol, header.number)
     for number, line in enumerate(lines, 2):
-        trial, where = course.next(), f"line {number}"
-        if trial is None:
-            wrong.append(Problem(where, line.trial, "is after the last trial"))
-            break
+        if (trial := course.next()) is None:
+            raise _not_planned(header, path, number, "is after the last trial")
         planned = line_of(trial, line.answer, line.felt)
         for key in ("trial", "block", "kind", "level", "position"):
             if (found := getattr(line, key)) != (wanted := getattr(planned, key)):
-                wrong.append(Problem(f"{where}: {key}", found, f"planned is {wanted!r}"))
-        if len(line.felt) != protocol.intervals:
-            wrong.append(Problem(f"{where}: felt", len(line.felt), f"intervals, and a trial has {protocol.intervals}"))
-        if (most := max((abs(force) for one in line.felt for force in (one.drop, one.peak)), default=0.0)) > MOST_N:
-            wrong.append(Problem(f"{where}: felt", most, f"is more than {MOST_N:g} N"))
-        if line.time and not _is_time(line.time):
-            wrong.append(Problem(f"{where}: time", line.time, "is no time in ISO 8601"))
+                raise _not_planned(header, path, number, f"{key} is {found!r}, and {wanted!r} is planned")
+        if len(line.felt) != protocol.intervals or not protocol.takes(line.answer):
+            raise _not_planned(header, path, number, f"{line.answer!r} to {len(line.felt)} intervals is no answer")
         own = re.compile(rf"{re.escape(header.participant)}-{trial.number:04d}-\d+\.parquet")
-        others = [name for name in line.recordings if not own.fullmatch(name)]
-        wrong += [Problem(f"{where}: recordings", name, "is the name of another trial's") for name in others]
-        if not protocol.takes(line.answer):  # the order of the rest depends on it
-            wrong.append(Problem(f"{where}: answer", line.answer, f"is no answer of {protocol.file.task}"))
-            break
+        if others := [name for name in line.recordings if not own.fullmatch(name)]:
+            raise _not_planned(header, path, number, f"{others[0]!r} is the name of another trial's recording")
         course.add(trial, line.answer)
-    if wrong:
-        told = "".join(f"\n  {problem}" for problem in wrong[:MOST_TOLD])
-        more = f"\n  and {len(wrong) - MOST_TOLD} more" * (len(wrong) > MOST_TOLD)
-        remedy = "It was changed by hand: restore it from a copy"
-        if header.version != __version__:
-            remedy = f"Use Punctura {header.version}, which began it, or restore it from a copy"
-        raise SessionError(f"{path} is not what seed, participant's number and answers give:{told}{more}\n{remedy}")
     return course
+
+
+def _not_planned(header: Header, path: Path, number: int, why: str) -> SessionError:
+    other = f"use Punctura {header.version}, which began it, or " * (header.version != __version__)
+    return SessionError(
+        f"{path}, line {number}: {why}. It is not what seed, participant's number and answers give: {other}restore the "
+        "file from a copy"
+    )
 
 
 def check_recordings(header: Header, lines: Sequence[Line], folder: Path) -> None:
@@ -215,10 +205,6 @@ def check_recordings(header: Header, lines: Sequence[Line], folder: Path) -> Non
                         f"{file} is the recording of trial {found[1]} of {found[0]}, not of trial {line.trial} of "
                         f"{header.participant}: restore it from a copy"
                     )
-
-
-def _no_line(path: Path, number: int) -> SessionError:
-    return SessionError(f"{path}, line {number}: is no line of this session; restore the file from a copy")
 
 
 def sessions(folder: Path) -> list[Path]:
@@ -241,7 +227,9 @@ def read_session(path: Path) -> tuple[Header | None, list[Line]]:
             else:
                 lines.append(Line.model_validate_json(text))
         except ValidationError:
-            raise _no_line(path, number) from None
+            raise SessionError(
+                f"{path}, line {number}: is no line of this session; restore the file from a copy"
+            ) from None
     return header, lines
 
 
@@ -282,14 +270,6 @@ def check_alike(headers: Iterable[Header], simulated: bool) -> None:
     if any(header.simulated != simulated for header in headers):
         other = "people" if simulated else "simulated observers"
         raise SessionError(f"the folder has sessions of {other}, and no report may mix both: choose another --out")
-
-
-def _is_time(text: str) -> bool:
-    try:
-        datetime.fromisoformat(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _now() -> str:
