@@ -28,6 +28,7 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
         expect(page.locator(".fault")).to_be_hidden()
         expect(page.locator(".stage-force")).to_be_hidden()
         expect(page.locator(".stage-curve")).to_be_hidden()
+        assert page.locator(".stage-cut").evaluate("cut => { cut.textContent = 'Cut.'; return cut.offsetWidth; }") == 0
         expect(page.locator(".view-main > canvas")).to_have_css("opacity", "0")
         expect(page.get_by_role("button")).to_have_count(1)  # turns the force off
         until(page, "Did it pop?")

@@ -18,6 +18,7 @@ export class Sentence {
   private readonly progress = new Progress();
   private readonly learnt = remembered("tour") !== null; // in an earlier visit
   private ended: number | null = null; // the history's generation in which all was done
+  private moved = -1; // the last run in which this page moved the needle
 
   constructor(private readonly app: App) {}
 
@@ -48,9 +49,13 @@ export class Sentence {
     if (paused) return "Paused; the run goes on.";
     if (!live) return `Replay of ${title}`;
     const barred = simulated ? handOf(app).barred.value : null;
-    const { you } = app.control.value;
+    const { you, holder } = app.control.value;
+    if (you) this.moved = app.run.value;
     const watches = barred !== null && !you && app.connection.value.state === "open";
     if (barred && !watches) return barred;
+    // A page that only looks on says what the person at the other one shall do.
+    if (watches && exercise?.running && (holder === null || this.moved === app.run.value))
+      return { text: barred, takeOver: true };
     if (exercise?.running) return exercise.instruction;
     if (watches) return place(bands, now) || { text: barred, takeOver: true };
     if (!this.learnt && !over) return instruction(progress, skin, simulated, true);

@@ -40,6 +40,19 @@ it("a page that looks on tells what happens, and not only that it has no control
   expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
 });
 
+it("in an exercise, a page that lost control says so, and each page that nobody is left to move the needle", () => {
+  const sentence = new Sentence(app);
+  app.exercise.value = { running: true, instruction: "Push slowly." } as ExerciseStatus;
+  control(true, 1);
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
+  control(false, 3);
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Another page moves the needle.", takeOver: true });
+  app.run.value++; // the other page's next attempt
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
+  control(false, null);
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Nobody moves the needle.", takeOver: true });
+});
+
 it("tells who could move the needle, and that the studio is gone", () => {
   const sentence = new Sentence(app);
   control(false, null);

@@ -31,11 +31,17 @@ export function openResult(
   const stop = new AbortController();
   const place = element("div", { class: "trace-place", "aria-live": "polite" });
   const watchButton = (time: number): HTMLElement => {
-    watch = button("Watch this moment, slowly", "", () => void showWorst(time));
-    watch.disabled = true;
+    watch = button("", "", () => void showWorst(time));
+    loading(true);
     return watch;
   };
   let watch: HTMLButtonElement | null = null;
+  /** Loading it takes some seconds, and its progress is below, out of sight. */
+  const loading = (on: boolean): void => {
+    if (!watch) return;
+    watch.disabled = on;
+    watch.textContent = on ? "Loading the moment…" : "Watch this moment, slowly";
+  };
   const look = button("Replay", "", () => void 0);
   look.disabled = true;
   const dialog = element(
@@ -102,9 +108,9 @@ export function openResult(
   let entry: RecordingEntry | undefined;
   /** The worst moment in the view, and this dialog again after it. */
   const showWorst = async (time: number): Promise<void> => {
-    if (watch) watch.disabled = true;
+    loading(true);
     const source = entry && (await fetchWhole(app, entry, place, stop.signal));
-    if (watch) watch.disabled = false;
+    loading(false);
     if (!source || stop.signal.aborted || !showMoment(app, source, time)) return;
     const shown = app.source.value;
     dialog.close();
@@ -116,8 +122,11 @@ export function openResult(
   };
   void drawTrace(app, result, exercise, place, stop.signal).then((entries) => {
     entry = entries.find(({ name }) => name === result.recording);
-    if (!entry) return;
-    if (watch) watch.disabled = false;
+    if (!entry) {
+      watch?.remove(); // the recording was deleted, or cannot be read: the sentence below tells it
+      return;
+    }
+    loading(false);
     look.disabled = false;
     look.addEventListener("click", () => {
       look.disabled = true;
