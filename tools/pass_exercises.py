@@ -144,21 +144,21 @@ class Fingers(Mouse):
         self.page = page
         self.tools, self.down = page.context.new_cdp_session(page), dict[int, tuple[float, float]]()
 
-    def send(self, kind: str) -> None:
-        points = [{"id": name, "x": x, "y": y} for name, (x, y) in self.down.items()]
+    def send(self, kind: str, fingers: dict[int, tuple[float, float]]) -> None:
+        points = [{"id": name, "x": x, "y": y} for name, (x, y) in fingers.items()]
         self.tools.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
     def press(self, x: float, y: float, finger: int = 0) -> None:
         self.down[finger] = x, y
-        self.send("touchStart")
+        self.send("touchStart", self.down)
 
     def go(self, x: float, y: float) -> None:
         self.down[0] = x, y
-        self.send("touchMove")
+        self.send("touchMove", self.down)
 
     def release(self, finger: int = 0) -> None:
-        self.down.pop(finger, None)
-        self.send("touchMove" if self.down else "touchEnd")
+        if finger in self.down:
+            self.send("touchEnd", {finger: self.down.pop(finger)})  # those that are lifted: the others stay
         if finger == 0:
             self.at = None
 
