@@ -48,7 +48,7 @@ def _start(
 
 
 def build_app(verb: str = "") -> typer.Typer:
-    """The command line with every verb of this folder, or with this one only, which starts faster."""
+    """The command line with every verb of this folder, or only with what the first word needs, which starts faster."""
     app = typer.Typer(
         callback=_start,
         no_args_is_help=True,
@@ -57,7 +57,8 @@ def build_app(verb: str = "") -> typer.Typer:
         rich_markup_mode=None,
     )
     names = _verbs()
-    for name in [verb] if verb in names else names:
+    needed = {"--version": []} | {name: [name] for name in names}
+    for name in needed.get(verb, names):
         command = importlib.import_module(f"punctura.cli.{name.replace('-', '_')}").command
         if isinstance(command, typer.Typer):  # a verb with verbs of its own
             app.add_typer(command, name=name)

@@ -49,7 +49,7 @@ def with_words(column: str, codes: pa.Array) -> pa.Array:
     words = words_of(column)
     if words is None:
         return codes
-    return pa.DictionaryArray.from_arrays(codes.cast(pa.int8()), pa.array(words), safe=True)
+    return pa.DictionaryArray.from_arrays(codes.view(pa.int8()), pa.array(words), safe=True)
 
 
 def to_arrow(ticks: Columns, words: bool = True) -> pa.Table:

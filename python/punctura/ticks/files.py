@@ -31,17 +31,12 @@ class CsvOutput:
         self._free = [i for i, field in enumerate(schema) if pa.types.is_string(field.type)]  # text of any kind
         quoting = "needed" if self._free else "none"  # the words of a dictionary are ours
         self._options = pyarrow.csv.WriteOptions(include_header=False, quoting_style=quoting)
-        self._schema = pa.schema([pa.field(f.name, _plain(f.type)) for f in schema])
 
     def write(self, table: pa.Table) -> None:
         for i in self._free:
             cells = [text and text_cell(text) for text in table.column(i).to_pylist()]
             table = table.set_column(i, table.field(i), pa.array(cells, pa.string()))
-        pyarrow.csv.write_csv(table.cast(self._schema), self._file, self._options)
-
-
-def _plain(kind: pa.DataType) -> pa.DataType:
-    return kind.value_type if isinstance(kind, pa.DictionaryType) else kind
+        pyarrow.csv.write_csv(table, self._file, self._options)
 
 
 class ParquetOutput:
