@@ -57,8 +57,9 @@ def build_app(verb: str = "") -> typer.Typer:
         rich_markup_mode=None,
     )
     names = _verbs()
-    needed = {"--version": []} | {name: [name] for name in names}
-    for name in needed.get(verb, names):
+    if verb in names or verb == "--version":
+        names = [verb] if verb in names else []
+    for name in names:
         command = importlib.import_module(f"punctura.cli.{name.replace('-', '_')}").command
         if isinstance(command, typer.Typer):  # a verb with verbs of its own
             app.add_typer(command, name=name)
