@@ -302,11 +302,12 @@ step_examples() {
 # Slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
 
-# What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases.
+# What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases. On a busy
+# computer some take more than the usual ten minutes.
 step_statistics() {
   local drawing
   drawing=$(git grep -lE 'cases\.(batches|count|asked)|@given' -- 'tests/python/*/test_*.py') &&
-    python_tests -n 2 $drawing && python -m pytest -n 2 --durations=15 -m statistics
+    python_tests -n 2 --timeout 3600 $drawing && python -m pytest -n 2 --durations=15 --timeout 3600 -m statistics
 }
 
 # Each environment that Punctura plugs into, with its own tool chain: integrations/README.md.
