@@ -302,8 +302,8 @@ step_examples() {
 # Slow, and its findings are a matter of taste.
 step_tidy() { pip install -q "clang-tidy==23.*" && compile tidy punctura_headers; }
 
-# What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases. On a busy
-# computer some take more than the usual ten minutes.
+# What is too slow for every run: statistical checks with many seeds, and the tests with all their random cases. Some
+# take more than the usual ten minutes on a busy computer.
 step_statistics() {
   local drawing
   drawing=$(git grep -lE 'cases\.(batches|count|asked)|@given' -- 'tests/python/*/test_*.py') &&
