@@ -136,8 +136,9 @@ class Mouse(Keys):
 
 
 class Fingers(Mouse):
-    """One drags, another one holds the button of the plunger."""
+    """One drags, another one holds the button of the plunger. A phone shows more tissue in a pixel."""
 
+    pixels = 1.0
     use = staticmethod(Locator.tap)
 
     def __init__(self, page: Page) -> None:
