@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from punctura._core import Insertion, Phase, Scene
 
+__all__ = ["PoseWarning", "PosedNeedle"]
+
 Array = NDArray[np.float64]
 # Of a period. A tick this close to a pose gets the pose itself. A double resolves seconds since 1970 to 0.24 us only.
 _CLOSE = 1e-3

@@ -32,7 +32,7 @@ class Rig:
         return {name: value for name in LATE if (value := getattr(self, name)) is not None}
 
     def values(self) -> tuple[RigValue, ...]:
-        """What is stated, and is not 0; without the noise of the depth, which may not matter."""
+        """Each stated number that is not 0, without the noise of the depth, which may not matter."""
         every = {**self.late, **{f"{name}_tolerance": getattr(self, f"{name}_tolerance") for name in _UNITS}}
         return tuple(RigValue(name, value, _UNITS[name.removesuffix("_tolerance")], True)
                      for name, value in every.items() if value)  # fmt: skip

@@ -32,7 +32,7 @@ AnyFit = RivalFit | K06Fit
 
 @dataclass(frozen=True)
 class Row:
-    """One model on the trace. SI."""
+    """How well one model explains the trace, and with how many numbers. SI."""
 
     name: str  # of the model, for programs
     title: str  # for people

@@ -17,7 +17,7 @@ def depth_note(membrane: str, depth: float) -> str:
 
 @dataclass
 class MembraneSummary:
-    """One membrane."""
+    """How deep the needle went behind one membrane (m), and the largest force there (N)."""
 
     name: str  # of the membrane
     deepest_m: float = 0.0  # along the needle

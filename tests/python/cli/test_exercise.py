@@ -66,7 +66,7 @@ def test_the_coach_is_printed_with_the_score(punctura, recording):
     printed = punctura("exercise", "score", recording, "--exercise", "venipuncture").stdout
     result = json.loads(punctura("exercise", "score", recording, "--exercise", "venipuncture", "--json").stdout)
     change, good = result["coaching"]["change"], result["coaching"]["good"]
-    assert change[0]["about"] == "through" and 0 < change[0]["numbers"]["speed_m_s"] < 0.05
+    assert change[0]["about"] == "through" and 0 < change[0]["numbers"]["speed_m_per_s"] < 0.05
     assert f"\n  Next time: {change[0]['text']}\n" in printed and printed.count("  Next time: ") == 1
     assert f"\n  What went well: {good[0]['text']}\n" in printed and printed.count("  What went well: ") == 1
 

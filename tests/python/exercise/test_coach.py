@@ -56,7 +56,7 @@ def test_a_hand_that_still_pushes_when_the_wall_gives_is_told_the_force_and_how_
 
 def test_a_fast_hand_is_told_its_speed(write):
     tips = coached(write, way((-9, 25)), STOP, REACH, head=DEEP)
-    assert tips.change[0].numbers["speed_m_s"] == pytest.approx(25e-3, rel=0.01)
+    assert tips.change[0].numbers["speed_m_per_s"] == pytest.approx(25e-3, rel=0.01)
     assert "You moved at 25 mm/s when the skin gave way, and went " in tips.change[0].text
     assert tips.change[0].text.endswith("too far: push more slowly when the resistance grows.")
 
@@ -81,7 +81,7 @@ def test_going_through_the_wall_behind_is_told_with_speed_and_force(write):
     never = goal("never_pass", membrane="back vein wall")
     tips = coached(write, way((-12, 12)), STAY, never)
     remark = tips.change[0]
-    assert remark.about == "through" and remark.numbers["speed_m_s"] == pytest.approx(12e-3, rel=0.01)
+    assert remark.about == "through" and remark.numbers["speed_m_per_s"] == pytest.approx(12e-3, rel=0.01)
     assert remark.text.startswith("You still moved in at 12 mm/s, against ")
     assert remark.text.endswith("through the back vein wall: push more slowly, so that you have time to stop.")
     tips = coached(write, way((-7, 12), (-7, 0, 1), (-12, 12)), goal("stay", seconds=9), never)

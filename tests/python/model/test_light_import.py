@@ -42,6 +42,11 @@ def test_a_type_checker_sees_the_late_names_at_the_same_places() -> None:
     assert seen == punctura._LATE
 
 
+@pytest.mark.parametrize("subject", sorted(punctura._SUBJECTS - {"studio"}))
+def test_each_subject_lists_its_names(subject: str) -> None:
+    assert importlib.import_module(f"punctura.{subject}").__all__
+
+
 @pytest.mark.parametrize("name", sorted({*punctura.__all__, *punctura._SUBJECTS}))
 def test_each_public_name_is_listed_and_can_be_used(name: str) -> None:
     assert name in dir(punctura)

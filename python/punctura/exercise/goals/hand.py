@@ -130,7 +130,7 @@ class SpeedJudge(LimitJudge):
     def corrections(self, seen: Seen) -> Iterator[Remark]:
         fast = seen.trajectory.last.speed
         text = f"You moved in at {speed(fast)}; {speed(self.at_most)} are allowed: push more slowly."
-        yield Remark(about="speed", text=text, numbers={"speed_m_s": fast, "allowed_m_s": self.at_most})
+        yield Remark(about="speed", text=text, numbers={"speed_m_per_s": fast, "allowed_m_per_s": self.at_most})
 
 
 class NoPause(Goal):

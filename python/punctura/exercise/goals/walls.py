@@ -76,7 +76,7 @@ class NeverPassJudge(LimitJudge):
             f"You still moved in at {speed(last.speed)}, against {seen.newtons(last.force)}, when the point went "
             f"through the {self.membrane}{when}: {what}."
         )
-        numbers = {"speed_m_s": last.speed, "force_N": last.force}
+        numbers = {"speed_m_per_s": last.speed, "force_N": last.force}
         yield Remark(about="through", text=text, numbers=numbers | ({} if since is None else {"after_s": since}))
 
 
@@ -181,7 +181,8 @@ class StopJudge(WindowJudge):
             else:
                 text = f"You were still pushing with {seen.newtons(push.force)} {too_far}: {SMALL_STEPS}."
             numbers = {
-                "speed_m_s": push.speed, "force_N": push.force, "distance_m": one.distance, "allowed_m": self.within,
+                "speed_m_per_s": push.speed, "force_N": push.force,
+                "distance_m": one.distance, "allowed_m": self.within,
             }  # fmt: skip
             yield Remark(about="stop", text=text, numbers=numbers)
 
@@ -245,7 +246,7 @@ class DepthJudge(LimitJudge):
             f"You still moved in at {speed(fast)} when the point was {mm(self.at_most)} past the {self.behind}: stop "
             "as soon as it gives way."
         )
-        yield Remark(about="depth", text=text, numbers={"speed_m_s": fast, "allowed_m": self.at_most})
+        yield Remark(about="depth", text=text, numbers={"speed_m_per_s": fast, "allowed_m": self.at_most})
 
 
 class Entries(Goal):
