@@ -16,12 +16,10 @@ from punctura.identify.parameters import ZERO
 from punctura.identify.records import ExplainedRecord
 from punctura.trace import Segments, Trace
 from punctura.trace.ends import NO_AIR, without_zero
-from punctura.trace.findings import DEPTHS, FORCES, WRONG_UNIT
 
 WEAKER = frozenset({"set", "cutting"})  # extensions of K06 with which the way out is weaker
 IN_AIR = 0.8  # of the samples before the contact: nearer, a soft wall may hide in the noise
-SCALE = "out_of_range"  # a cause
-IMPOSSIBLE = (SCALE, "air_steps", NO_AIR, "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
+IMPOSSIBLE = ("air_steps", NO_AIR, "wall_in_air", "wall_beyond")  # what no cause in the tissue explains
 NOT_EXPLAINED = "not explained: see below"  # behind the error of a model that is not the whole truth
 TAKEN_UP = 2.0  # times the slow noise that a fit leaves: it is on both ways and in the zero, and a fit takes it up
 UNEQUAL = ("barbs", "asymmetric_way_out", "same_both_ways")  # causes
@@ -84,20 +82,7 @@ def doubts(
     if not any(one.kind in UNEQUAL for one in found):
         found = (*_asymmetry(trace, segments, fit, assessment, extensions), *found)
     in_air = _air_steps(trace) or _no_air(trace) or _wall_in_air(segments, fit, assessment)
-    return Doubts(assessment, (*_out_of_range(trace), *in_air, *_walls_beyond(trace, fit), *found))
-
-
-def _out_of_range(trace: Trace) -> tuple[Cause, ...]:
-    """A depth or a force for which the bounds of the parameters are not made, so that the unit changes the fit."""
-    if not any(finding.kind == WRONG_UNIT for finding in trace.findings):
-        return ()
-    text = (
-        f"The trace is outside the range that the model is made for: insertions of a needle by {DEPTHS[0] * 1e3:g} mm "
-        f"to {DEPTHS[1]:g} m with {FORCES[0] * 1e3:g} mN to {FORCES[1]:g} N. Its parameters have bounds, so the same "
-        "curve in another unit gets another fit, and the values do not hold. If this is the insertion of a needle, "
-        "state the units"
-    )
-    return (Cause(SCALE, 0.0, text),)
+    return Doubts(assessment, (*in_air, *_walls_beyond(trace, fit), *found))
 
 
 def _walls_beyond(trace: Trace, fit: Fit) -> tuple[Cause, ...]:

@@ -63,7 +63,7 @@ class Misfit:
 
     def free(self, names: Sequence[str], base: Parameters) -> Free:
         """These parameters as the free ones of a fit to this trace; all others are as in `base`."""
-        return Free(names, base, float(self.trace.depth.max()), self.zero, self._speed_at)
+        return Free(names, base, float(self.trace.depth.max()), self.zero, self._speed_at, self.trace.scale)
 
     def _speed_at(self, depth: float) -> float:
         """How fast the needle first comes to a depth, m/s; 0 without time, or if it does not."""
@@ -333,10 +333,12 @@ def _search(
     """The coordinates of the least squares, the number of evaluations, and a message if the search did not end."""
     if len(u) == 0:
         return u, 0, ""
-    margin = 1e-9 * np.minimum(free.high - free.low, 1)
+    margin = 1e-9 * np.minimum(free.high - free.low, free.units)
     most = 15 if blur else evaluations
+    units = free.units
     found, count, ended = least_squares(
-        lambda at: misfit.residuals(free, at, blur), lambda at: misfit.jacobian(free, at, blur), u,
-        (free.low + margin, free.high - margin), 1e-3 if blur else 1e-7, 1e-7, most, np.inf if blur else hopeless,
+        lambda at: misfit.residuals(free, at * units, blur), lambda at: misfit.jacobian(free, at * units, blur) * units,
+        u / units, ((free.low + margin) / units, (free.high - margin) / units),
+        1e-3 if blur else 1e-7, 1e-7, most, np.inf if blur else hopeless,
     )  # fmt: skip
-    return found, count, "" if ended else f"no end within {most} evaluations"
+    return found * units, count, "" if ended else f"no end within {most} evaluations"

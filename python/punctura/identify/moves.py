@@ -125,7 +125,7 @@ def with_hops(found: Fit, most_idle: int = IDLE) -> Fit:
 def _hopped(best: Fit, rng: np.random.Generator) -> Fit | None:
     free = best.free
     moves = rng.choice(SIZES) * rng.normal(size=len(best.u)) * (rng.random(len(best.u)) < rng.choice(MOVED))
-    margin = 1e-6 * np.minimum(free.high - free.low, 1.0)
+    margin = 1e-6 * np.minimum(free.high - free.low, free.units)
     u = np.clip(best.u + moves * _sizes(best), free.low + margin, free.high - margin)
     try:
         return shortly(best.misfit, free, u, SHORT, PROMISING * best.sse)

@@ -29,7 +29,7 @@ _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",
 }  # fmt: skip
-_RANGES = {  # from microneedles (1 mN) to trocars (500 N)
+_RANGES = {  # of a trace of the usual scale
     "stiffness": (1e-1, 1e7), "precompression": (0.0, 1e4), "friction": (1e-4, 1e2), "thickness": (1e-6, 0.3),
     "tip_length": (1e-5, 0.1), "growth": (-5e4, 5e4), "tail_length": (1e-5, 0.1), "tail_floor": (0.0, 1.0),
     "cutting": (0.0, 1e4), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e7), "coupling_damping": (0.0, 1e3),
@@ -116,6 +116,14 @@ def kind_of(name: str) -> str:
     return name.rpartition(".")[2]
 
 
+def _unit(kind: str, scale: tuple[float, float]) -> float:
+    """What a kind of parameter is multiplied by where force and depth are larger by these factors."""
+    force, depth = scale
+    stiffness = force / depth
+    units = {"N": force, "N/s": force, "m": depth, "1/m": 1 / depth, "N/m": stiffness, "N s/m": stiffness}
+    return units.get(UNITS[kind], 1.0)
+
+
 class Free:
     """The free parameters of a fit, and their coordinates u.
 
@@ -132,17 +140,22 @@ class Free:
         deepest: float = np.inf,
         zero: tuple[float, float] = (-np.inf, np.inf),
         speed: Callable[[float], float] = lambda _: 0.0,
+        scale: tuple[float, float] = (1.0, 1.0),
     ) -> None:
         """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m.
 
         zero: the range of the offset, N, if no drift is free. speed: m/s, at which the needle comes to a depth, m.
+        scale: of force and depth (Trace.scale): the bounds follow it, so a law in other units has the same fit.
         """
         self.names = tuple(names)
         self._zero = (-np.inf, np.inf) if "drift" in self.names else zero
+        self._scale = scale
         self.base = base
         m = len(base.membranes)
         self._at = [np.array(indices(name, m)) for name in self.names]
         self._log = np.array([kind_of(name) in _LOGARITHMIC for name in self.names])
+        units = [1.0 if log else _unit(kind_of(name), scale) for name, log in zip(self.names, self._log, strict=True)]
+        self.units = np.array(units)  # of the coordinates (p,): what a step is compared with
         self._rows = np.concatenate([*self._at, np.zeros(0, int)]).astype(int)  # in the vector, and whose they are:
         self._owner = np.repeat(np.arange(len(self.names)), [len(at) for at in self._at])
         self.kinds = [kind for kind in (*COUPLING, *MEMBRANE) if kind in map(kind_of, self.names)]
@@ -167,7 +180,11 @@ class Free:
         kind = kind_of(name)
         if kind == "friction":  # insertion needs mu tan(theta) < 1, K06 (7)
             return 1e-4, 0.98 / float(np.tan(self.base.needle.tip_angle))
-        return self._zero if kind == "offset" else _RANGES.get(kind, (-np.inf, np.inf))
+        if kind == "offset":
+            return self._zero
+        low, high = _RANGES.get(kind, (-np.inf, np.inf))
+        unit = 1.0 if kind in LATE else _unit(kind, self._scale)
+        return low * unit, high * unit
 
     def _coordinates(self, values: Array) -> Array:
         return np.where(self._log, np.log(np.where(self._log, values, 1.0)), values)
@@ -176,8 +193,7 @@ class Free:
         """The coordinates of the free parameters, moved into their ranges."""
         vector = parameters.vector()
         values = np.array([vector[at[0]] for at in self._at])
-        small = np.array([_RANGES.get(kind_of(name), (0.0, 0.0))[0] for name in self.names])
-        values = np.where(self._log, np.maximum(values, np.maximum(small, 1e-12)), values)
+        values = np.where(self._log, np.maximum(values, self._least), values)
         u = np.clip(self._coordinates(values), self.low, self.high)
         if self.walls:
             pops, _ = self._pops(self._without_pops(u), False)

@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 from punctura import Needle
 from punctura._core import TraceModel
 from punctura.identify.parameters import LATE, Parameters
+from punctura.trace.trace import USUAL_DEPTH, power_of_1000
 
 Array = NDArray[np.float64]
 
 FINE = 8  # steps of a filter from sample to sample
 SHIFT = 1e-5  # s, of a lag or a delay, for a derivative
-STEP = 1e-7  # m, the same of a play
+STEP = 1e-7  # m, the same of a play, for a trace of the usual scale
 KEPT = 3  # models, of the last motions
-OUTSIDE, JUST, SLOWLY = 0.3, 1e-6, 1e-3  # m, m, m/s: from where the needle came to the first sample, and how fast
+OUTSIDE, JUST, SLOWLY = 0.3, 1e-6, 1e-3  # m, m, m/s: from where the needle came to the first sample, and how fast;
+# for such a trace
 BEYOND, LAST = 10.0, 5  # s; samples: at both ends a motion goes on as these samples show it
 
 
@@ -28,6 +30,7 @@ class _CameIn:
         before = np.array([OUTSIDE, JUST])
         if time is not None:
             time = np.concatenate((time[0] - before / SLOWLY, time))
+        before *= power_of_1000(depth, USUAL_DEPTH)
         self._model = TraceModel(needle, np.concatenate((depth[0] - before, depth)), time)
 
     def forces(self, p: Parameters, jacobian: bool = True, by: Sequence[str] = ()) -> tuple[Array, Array]:
@@ -83,7 +86,7 @@ class SensedModel:
         lag = 0.0 if self._time is None else p.late[0]
         force, columns = self._unfiltered(p, max(lag, SHIFT if "lag" in late else 0.0), True, kinds)
         for name in late:
-            step = SHIFT if name in ("lag", "delay") else STEP
+            step = SHIFT if name in ("lag", "delay") else STEP * power_of_1000(self._depth, USUAL_DEPTH)
             low, high = p.get(name) - step, p.get(name) + step
             low = low if name == "delay" else max(low, 0.0)
             if name == "lag":

@@ -22,7 +22,8 @@ FEWEST = 5  # samples of the first insertion
 PLACES = (0.5, 0.3, 0.7, 0.9)  # of a wall without a pop, shares of the way
 OTHER_SHARES = (0.5, 0.2, 0.05)  # of a grip, that are precompression
 STIFFER = 5.0  # times the spring
-LEAST_STIFFNESS, STIFFEST = 50.0, 2e5  # N/m, of a series spring
+SOFTEST, STIFFEST = 50.0, 2e5  # N/m, of a series spring, for a trace of the usual scale
+LEAST, SHORTEST = 1e-3, 1e-4  # N, m: so much force before a pop, and so long a way, at least; for such a trace
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +81,7 @@ def starts(
     """
     found = sorted(_search(trace, segments, needle, membranes), key=lambda fit: fit.rmse)
     for fit in found:
-        yield _physical(fit, needle, curved)
+        yield _physical(fit, needle, curved, LEAST * trace.scale[0])
 
 
 def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) -> Iterator[ProfileFit]:
@@ -94,11 +95,13 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
 
 def _around(insertion: Trace, contact: float, ends: Array, own: Array, needle: Needle) -> Iterator[ProfileFit]:
     tip = needle.diameter / np.tan(needle.tip_angle)
-    way = max(float(ends[0]) - contact, 1e-4)
+    of_force, of_depth = insertion.scale
+    least, most = (stiffness * of_force / of_depth for stiffness in (SOFTEST, STIFFEST))
+    way = max(float(ends[0]) - contact, SHORTEST * of_depth)
     left = way - tip  # of the way from contact to the pop: the spring gives
     soft = own[0] / left if left > 0.02 * way else np.inf
-    springs = {max(LEAST_STIFFNESS, min(share * own[0] / way, STIFFEST)) for share in (1.3, 2.0, 4.0, 20.0, 200.0)}
-    for stiffness in sorted(springs | ({max(soft, LEAST_STIFFNESS)} if np.isfinite(soft) else set())):
+    springs = {max(least, min(share * own[0] / way, most)) for share in (1.3, 2.0, 4.0, 20.0, 200.0)}
+    for stiffness in sorted(springs | ({max(soft, least)} if np.isfinite(soft) else set())):
         for length in (tip, max(way - own[0] / stiffness, 0.1 * way)):
             for thickness in (0.1 * length, 0.5 * length):
                 surfaces = ends - own / stiffness - length - 0.5 * thickness
@@ -129,14 +132,17 @@ def _pops(
         widest = int(np.argmax(np.diff(edges)))
         ends.insert(widest, edges[widest] + share * (edges[widest + 1] - edges[widest]))
         own.insert(widest, float(insertion.force.max()) / membranes)
-    return np.array(ends), np.maximum(own, 1e-3)
+    return np.array(ends), np.maximum(own, LEAST * trace.scale[0])
 
 
-def _physical(fit: ProfileFit, needle: Needle, curved: bool) -> Parameters:
-    """Stiffness, precompression and friction that have the shape of each profile; with `curved` growth and tip, too."""
+def _physical(fit: ProfileFit, needle: Needle, curved: bool, least: float) -> Parameters:
+    """Stiffness, precompression and friction that have the shape of each profile; with `curved` growth and tip, too.
+
+    least: N, of the greatest force of a wall.
+    """
     rows = []
     for surface, knots, values in zip(fit.surfaces, fit.knots, fit.values, strict=True):
-        peak = max(float(values.max()), 1e-3)
+        peak = max(float(values.max()), least)
         plateau = float(np.clip(values[-1], 0.02 * peak, 0.98 * peak))
         friction = friction_of_ratio(peak / plateau, needle.tip_angle)
         grip = plateau / (2 * friction)

@@ -12,7 +12,7 @@ from punctura import Needle
 from punctura._core import TraceModel
 from punctura.identify.fit import Fit
 from punctura.identify.parameters import MEMBRANE, Parameters, default_coupling, default_membrane
-from punctura.identify.start import friction_of_ratio
+from punctura.identify.start import LEAST, friction_of_ratio
 from punctura.trace import Segments, Trace
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def rise_starts(trace: Trace, segments: Segments, needle: Needle, membranes: int
     begins = np.array([trace.depth[segments.contact or 0], *places[:-1]])
     base = np.array([0.0, *(pop.force - pop.drop for pop in pops[:-1])])
     peaks = np.array([pop.force for pop in pops]) - base
-    ways = np.maximum(places - begins, 1e-5)
+    ways = np.maximum(places - begins, 1e-5 * trace.scale[1])
     tip = needle.diameter / np.tan(needle.tip_angle)
     found = []
     for stiffness in float((peaks / ways).max()) * np.array(SPRINGS):
@@ -73,7 +73,7 @@ def rise_starts(trace: Trace, segments: Segments, needle: Needle, membranes: int
     for shape in sorted(found, key=lambda one: one.error):  # the best of each spring
         if shape.stiffness not in springs:
             springs.append(shape.stiffness)
-            yield _parameters(shape, places, needle, curved)
+            yield _parameters(shape, places, needle, curved, LEAST * trace.scale[0])
 
 
 def _shapes(proxy: Array, last: Array, depth: Array, places: Array, length: float, bend: float) -> Array:
@@ -89,12 +89,12 @@ def _rise(opening: Array, bend: float) -> Array:
     return opening if bend == 0 else np.asarray(np.expm1(bend * opening) / np.expm1(bend))
 
 
-def _parameters(shape: _Shape, places: Array, needle: Needle, curved: bool) -> Parameters:
+def _parameters(shape: _Shape, places: Array, needle: Needle, curved: bool, least: float) -> Parameters:
     rows = []
     growth = shape.bend / needle.diameter
     rise = needle.diameter if shape.bend == 0 else np.expm1(shape.bend) / growth
     for place, (first, more, behind) in zip(places, shape.walls, strict=True):
-        peak = max(first + more, 1e-3)
+        peak = max(first + more, least)
         plateau = float(np.clip(behind, 0.02 * peak, 0.98 * peak))
         friction = friction_of_ratio(peak / plateau, needle.tip_angle)
         grip = plateau / (2 * friction)

@@ -27,7 +27,6 @@ from punctura.trace.turns import noise_of
 
 Array = NDArray[np.float64]
 
-WRONG_UNIT = "wrong_unit"  # a finding
 # An insertion outside these bounds, from microneedles to trocars, can point to a wrong unit.
 DEPTHS = (1e-5, 0.5)  # m, range of the depth
 FORCES = (2e-5, 1000.0)  # N, greatest force
@@ -142,7 +141,7 @@ def _units(trace: Trace) -> Iterator[Finding]:
             name = "range of the depths" if what == "depth" else "greatest force"
             other = "or this is another test than the insertion of a needle"
             text = f"the {name} is {value:.3g} {unit}, perhaps {factor}, {other}"
-            yield Finding(WRONG_UNIT, f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
+            yield Finding("wrong_unit", f"{text}; if the unit is wrong, state it (--unit {what}=UNIT)")
 
 
 def _stacked(trace: Trace) -> Iterator[Finding]:

@@ -125,7 +125,21 @@ class Trace:
         numbers = insertion_numbers(self.depth, depth_hysteresis(self.depth))
         return without_turns_in_air(numbers, self.depth, self.force) if numbers[-1] else numbers
 
+    @cached_property
+    def scale(self) -> tuple[float, float]:
+        """How large the force is beside 1 N, and the depth beside 10 mm, in powers of 1000: 1 for most insertions."""
+        return power_of_1000(self.force, 1.0), power_of_1000(self.depth, USUAL_DEPTH)
+
     @property
     def speed(self) -> Array | None:
         """Speed of the needle at each sample (n,), m/s, positive inwards; None without time."""
         return None if self.time is None else np.gradient(self.depth, self.time)
+
+
+USUAL_DEPTH = 1e-2  # m, range of a depth
+
+
+def power_of_1000(column: Array, usual: float) -> float:
+    """The nearest power of 1000 to the range of values over the usual one; 1 where they are all the same."""
+    height = float(np.ptp(column))
+    return float(1e3 ** np.round(np.log10(height / usual) / 3)) if height > 0 else 1.0
