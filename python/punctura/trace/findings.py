@@ -226,7 +226,7 @@ def _missing(trace: Trace, segments: Segments) -> Iterator[Finding]:
     if trace.time is None:
         text = "damping and relaxation cannot be told; record the time, too"
         yield Finding("no_time", text)
-    if segments.contact is None:
+    if not segments.contact:  # none, or at the first sample
         unknown = "" if segments.exit is not None else ", and no air shows the zero and the noise of the force"
         text = "the force rises from the first samples on"
         air = trace.force[len(trace) if segments.exit is None else segments.exit :]

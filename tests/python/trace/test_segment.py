@@ -166,6 +166,14 @@ def test_a_force_that_rises_from_the_first_sample_on_has_no_contact(curve):
     assert segment(Trace(depth, force + noise, np.arange(len(depth)) * 0.01)).contact is None
 
 
+def test_a_contact_at_the_first_sample_is_said_to_be_none():
+    way = np.linspace(5e-6, 3.9e-3, 1500)
+    shape = [0.0, 0.02, 0.3, 0.6, 1.2, 1.8, 2.4, 3.0, 3.6, 3.9], [0.0, 0.19, 0.7, 0.94, 1.1, 0.9, 0.53, 0.41, 0.57, 2.2]
+    force = np.interp(way * 1e3, *shape)
+    made = examine(Trace(np.concatenate((way, way[::-1])), np.concatenate((force, 0.8 * force[::-1]))))
+    assert segment(made).contact == 0 and "no_contact" in [one.kind for one in made.findings]
+
+
 def test_a_needle_that_stays_in_the_tissue_has_no_exit():
     made = layers()
     for end in (5.5, 6.2):  # s: on the way out, but deeper than the firm wall
