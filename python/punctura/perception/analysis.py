@@ -257,16 +257,22 @@ def _detection(protocol: Protocol, found: Answers, catch: Answers) -> list[Detec
         if min(map(len, cells)) < LEAST_CELL:
             continue
         hits, n = np.array([(cell.sum(), len(cell)) for cell in cells], np.float64).T
-        never, always = hits == 0, hits == n
-        shares = (np.arange(_POINTS) + 0.5) / _POINTS  # of the posterior of each rate
-        one, other = (ndtri(betaincinv(k + PRIOR, m - k + PRIOR, shares)) for k, m in zip(hits, n, strict=True))
-        first, second = map(float, ndtri((hits + RATE + END * (always * 1.0 - never)) / (n + 2 * RATE)))
-        per = 1 if yes_no else np.sqrt(2)
-        dprime = _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always))
-        ends = always[0] or never[1], never[0] or always[1]
-        criterion = _spread((second - first) / 2, (other - one[:, None]) / 2, *ends)
+        dprime, criterion = detected(hits, n, 1.0 if yes_no else np.sqrt(2))
         result.append(Detection(level=level, trials=int(here.sum()), dprime=dprime, criterion=criterion))
     return result
+
+
+def detected(hits: Array, n: Array, per: float) -> tuple[Estimate, Estimate]:
+    """d' and criterion. hits, n (2,): of the answers that count in the first cells, of the others in the second."""
+    never, always = hits == 0, hits == n
+    shares = (np.arange(_POINTS) + 0.5) / _POINTS  # of the posterior of each rate
+    one, other = (ndtri(betaincinv(k + PRIOR, m - k + PRIOR, shares)) for k, m in zip(hits, n, strict=True))
+    first, second = map(float, ndtri((hits + RATE + END * (always * 1.0 - never)) / (n + 2 * RATE)))
+    ends = always[0] or never[1], never[0] or always[1]
+    return (
+        _spread((first + second) / per, (one[:, None] + other) / per, any(never), any(always)),
+        _spread((second - first) / 2, (other - one[:, None]) / 2, *ends),
+    )
 
 
 def _spread(value: float, values: Array, no_low: bool, no_high: bool) -> Estimate:
@@ -301,10 +307,21 @@ def analyse(protocol: Protocol, sessions: Mapping[str, Sequence[Line]]) -> Analy
         result.reason = f"{len(known)} participant{'s' * (len(known) != 1)} with a {what}: a mean needs 2"
         return result
     for key in ("threshold", "jnd", "weber", "slope", "change", "shift"):
-        values = np.array([getattr(person, key)[0] if getattr(person, key) else np.nan for person in known])
-        if np.isfinite(values).all():
-            setattr(result, key, _mean(values))
+        setattr(result, key, mean_of([getattr(one, key) for one in known]))
     return result
+
+
+def mean_of(people: Sequence[Estimate | None]) -> Estimate | None:
+    """With the interval of Student's t; None if somebody has no number.
+
+    If people are alike by chance, it is no narrower than their own intervals make it, as if people did not differ.
+    """
+    value, low, high = np.array([one or [np.nan] * 3 for one in people]).T
+    if not np.isfinite([value, low, high]).all():
+        return None
+    middle, own = _mean(value), float(np.hypot.reduce(high - low)) / 2 / len(value)
+    half = max(middle.high - middle.value, own)
+    return Estimate(middle.value, middle.value - half, middle.value + half)
 
 
 def _mean(*groups: Array) -> Estimate:

@@ -12,7 +12,7 @@ import numpy as np
 from punctura.perception.analysis import analyse, person
 from punctura.perception.observer import Observer, Senses, Simulation
 from punctura.perception.protocol import Protocol
-from punctura.perception.psychometric import Array
+from punctura.perception.psychometric import LAPSES, Array
 from punctura.perception.results import Estimate, Person
 from punctura.progress import Report
 
@@ -43,19 +43,21 @@ def with_trials(protocol: Protocol, trials: int) -> Protocol:
 
 
 def coverage(
-    protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None
+    protocol: Protocol, observer: Observer, sessions: int, seed: int, senses: Senses | None = None, vary: bool = False
 ) -> dict[str, Coverage]:
     """By threshold, jnd and dprime, that of each level, as far as they are known. Raises ValueError if one is outside
-    the levels."""
-    simulation = Simulation(protocol, observer, senses)
+    the levels. vary: each session is that of another person, whose lapses are drawn as the fit expects them."""
+    senses, random, file = senses or Senses(protocol), np.random.default_rng(seed), protocol.file
+    lapses = random.beta(1, LAPSES, sessions) if vary else [observer.lapse] * sessions
+    people = [Simulation(protocol, replace(observer, lapse=float(lapse)), senses) for lapse in lapses]
     set_equal = protocol.reference if protocol.adjusts else None  # what a setting seeks
-    truth = {"threshold": [simulation.threshold() if set_equal is None else set_equal]}
+    truth = {"threshold": [[people[0].threshold() if set_equal is None else set_equal]] * sessions}
     if protocol.compares:
-        truth["jnd"] = [simulation.jnd()]
-    if protocol.file.method == "constant" and (protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch)):
-        truth["dprime"] = [simulation.dprime(i) for i in range(len(protocol.levels))]
-    people = [person(protocol, "", simulation.run(i, seed + i)) for i in range(sessions)]
-    return {what: _coverage(np.array(known), [_numbers(protocol, one, what) for one in people])
+        truth["jnd"] = [[people[0].jnd()]] * sessions
+    if file.method == "constant" and (protocol.intervals == 2 or (protocol.intervals == 1 and protocol.catch)):
+        truth["dprime"] = [[one.dprime(i) for i in range(len(protocol.levels))] for one in people]
+    found = [person(protocol, "", one.run(i, seed + i)) for i, one in enumerate(people)]
+    return {what: _coverage(np.array(known), [_numbers(protocol, one, what) for one in found])
             for what, known in truth.items() if np.isfinite(known).any()}  # fmt: skip
 
 
@@ -67,8 +69,9 @@ def _numbers(protocol: Protocol, one: Person, what: str) -> list[Estimate]:
 
 
 def _coverage(known: Array, numbers: list[list[Estimate]]) -> Coverage:
-    value, low, high = np.moveaxis(np.array(numbers)[:, np.isfinite(known)], 2, 0)
-    true = np.broadcast_to(known[np.isfinite(known)], value.shape)
+    """known: (sessions, numbers); NaN where a number is not known."""
+    true = known[np.isfinite(known)]
+    value, low, high = np.array(numbers)[np.isfinite(known)].T
     given, one = ~np.isnan(low), np.isfinite(value)  # an interval may have no end, and then no number in it
     wide = (high - low)[np.isfinite(high - low)]
     bias = (np.sign(true) * (value - true))[one].sum() / max(np.abs(true[one]).sum(), 1e-300)

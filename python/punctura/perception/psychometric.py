@@ -72,6 +72,7 @@ MORE, LEAST_STEPS = 5, 1.5  # such grids at most, until the weight has so many s
 QUEST = Sizes(61, 9, 3, 3)
 MOST_LAPSE, MOST_FLOOR, MOST_BIAS = 0.25, 0.45, 2.0
 BIAS = 0.7  # standard deviation of its prior
+LAPSES = 50  # their prior is a beta distribution of 1 and this
 EXPONENT, EXPONENTS = 1.0, 0.5  # of d': the middle of its prior, and the standard deviation of its logarithm
 BENDS = (1, 0, -1)  # power of the level that `bends` means; 0: its logarithm
 QUARTER = float(ndtri(0.75))  # widths from the place to the level of 75 %
@@ -132,11 +133,13 @@ class Grid:
         self.bias = rest if shape.rest == "bias" else np.zeros(1)
         self.floor = rest if shape.rest == "floor" else np.zeros(1)
         outside = np.maximum(np.maximum(low - self.place, self.place - high), 0) / (spread / 2)
-        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** 49
+        prior = (1 + np.cos(np.pi * np.minimum(outside, 1))) * root * (1 - self.lapse) ** (LAPSES - 1)
         prior = prior * (1 - self.floor) * np.exp(-((self.bias / BIAS) ** 2) / 2)
-        if shape.one_sided and not shape.bends:  # the width is one over the exponent of d'
+        if shape.one_sided and shape.bends:  # the width is one over the exponent of d', whose prior is flat
+            prior = prior / self.width
+        elif shape.one_sided:
             prior = prior * np.exp(-(((width + np.log(EXPONENT)) / EXPONENTS) ** 2) / 2)
-        elif not shape.one_sided and shape.rest != "floor":  # flat in a width that is wanted, else in its logarithm
+        elif shape.rest != "floor":  # flat in a width that is wanted, else in its logarithm
             prior = prior * self.width
         self.prior: Array = prior / prior.sum()
         # Where the function of place and width has the probability 1/2, less its place, in widths: with a floor the

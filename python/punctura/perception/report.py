@@ -79,7 +79,7 @@ DICTIONARY: tuple[tuple[str, pa.DataType, str, str], ...] = (
     ("device_simulated", pa.bool_(), "", "whether no hand felt a force; empty for observers"),
     ("trial", pa.int64(), "", "number of the trial in the session, from 0, practice included"),
     ("block", pa.int64(), "", "from 0"),
-    ("kind", pa.string(), "", "practice, trial or catch; only trial is in the fit"),
+    ("kind", pa.string(), "", "practice, trial or catch; practice is in no fit"),
     ("level", pa.float64(), OF_LEVELS, "planned level of the comparison"),
     ("felt_level", pa.float64(), OF_LEVELS, "the level as it was felt, if the variable is in newtons"),
     ("position", pa.int64(), "", "interval of the comparison, from 0"),
