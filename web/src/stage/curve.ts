@@ -13,7 +13,7 @@ import { ABOVE_MM, type Attempt, type Felt } from "./attempt.ts";
 const AXIS = 34; // px, of the numbers of the depth
 const TOP = 2.6; // widths of a letter: the name and the numbers of the force
 const EDGE = 10; // px
-const NAME_EDGE = 6; // px, left and right of a layer's name
+const NAME_EDGE = 6; // px, left of a layer's name
 const PULL = 0.3; // of the greatest force: room for a force that pulls
 const MARKS = 9; // widths of a letter: the room for the buttons, right of the greatest force
 const SEAM = 20; // points that are drawn again with new ones: pieces of less than a pixel do not cover one
@@ -228,7 +228,7 @@ export class CurvePicture {
     }
     // Of the layers, on the left, where only a force that pulls is drawn; over the lines.
     for (const { name, y } of placedNames(bands, depth, letter, height - EDGE)) {
-      const text = shortened(name, force.px(0) - AXIS - 2 * NAME_EDGE, letter - 1);
+      const text = shortened(name, force.px(0) - AXIS - NAME_EDGE, letter - 1);
       pen.text(AXIS + NAME_EDGE, y, text, { colour: theme.text, size: letter - 1, halo: theme.panel });
     }
   }
@@ -271,7 +271,7 @@ export class CurvePicture {
 
 /** A name that has so much room, px, to the left of the curve. */
 export function shortened(name: string, room: number, size: number): string {
-  const most = Math.max(3, Math.floor((1.1 * room) / textWidth("a", size))); // that width is rather too large
+  const most = Math.max(3, Math.floor((1.15 * room) / textWidth("a", size))); // that width is rather too large
   if (name.length <= most) return name;
   const number = /\s*\d+$/.exec(name)?.[0] ?? ""; // tells it from the others
   return `${name.slice(0, Math.max(1, most - 1 - number.length)).trimEnd()}…${number}`;

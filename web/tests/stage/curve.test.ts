@@ -54,7 +54,7 @@ it("of many thin layers, names are left out evenly, and each is at its own layer
 it("a name that would lie under the curve is shortened", () => {
   expect(shortened("skin", 90, 12)).toBe("skin");
   expect(shortened("interspinous ligament", 90, 12)).toBe("interspinous…");
-  expect(shortened("layer number 12", 90, 12)).toBe("layer num… 12");
+  expect(shortened("layer number 12", 90, 12)).toBe("layer numb… 12");
 });
 
 it("bands and axis go as deep as the needle and the goal, in steps", () => {
