@@ -209,7 +209,8 @@ def _identified(
         *advice,
     )
     searched = [MORE_OPTIMA] if more else []
-    doubt = doubt.beside(*doubt_of_needle(found, needle, rig), *slow_misfit(*of_few), *maybe_walls(final), *searched)
+    maybe = maybe_walls(final, bool(segments.pops))
+    doubt = doubt.beside(*doubt_of_needle(found, needle, rig), *slow_misfit(*of_few), *maybe, *searched)
     advice = (*doubt.sentences, *advice, *([ENDED] if choice.search.ended else []))
     found = with_subtracted(found, trace)
     return Identification(trace, segments, final, found, advice, choice.candidates, effective, doubt, tuple(known))

@@ -1,4 +1,4 @@
-"""Walls that may be none: slow noise changes as much in the time of their fall, or noise has split one wall in two."""
+"""Walls that may be none: none pops, slow noise changes as much in the time of a fall, or noise has split one wall."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ MOST = 0.9  # of a fall: so much of it tells its time
 APART = 3  # samples: two walls that pop nearer to each other may be one
 
 
-def maybe_walls(fit: Fit) -> tuple[Cause, ...]:
-    """The cause, if the trace does not clearly show one of several walls. fit: the last one.
+def maybe_walls(fit: Fit, pops: bool) -> tuple[Cause, ...]:
+    """The cause, if the trace does not clearly show one of several walls. fit: the last one. pops: the trace has one.
 
     The force of all walls together is there for certain, and turns its sign with the motion. That it is of several
     walls, their falls tell.
@@ -28,6 +28,8 @@ def maybe_walls(fit: Fit) -> tuple[Cause, ...]:
     model = TraceModel(parameters.needle, trace.depth, trace.time)
     end = int(np.argmax(trace.depth)) + 1
     doubtful, tops = [], []
+    if not pops:
+        doubtful.append("no wall pops, so that the way in which the force rises alone tells their number")
     for i, wall in enumerate(parameters.membranes):
         force = model.forces([wall], parameters.coupling, False)[0][:end]
         top = int(np.argmax(force))
@@ -46,6 +48,6 @@ def maybe_walls(fit: Fit) -> tuple[Cause, ...]:
         return ()
     text = (
         f"Some walls may be none: {'; '.join(doubtful)}. The other values follow from the number of walls. To tell: "
-        "insert again: a wall comes at the same depth"
+        "go through all walls, and insert again: a wall comes at the same depth"
     )
     return (Cause("maybe_wall", 0.0, text),)

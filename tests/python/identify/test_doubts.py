@@ -13,7 +13,6 @@ from punctura.identify.causes import Cause, both_ways, way_out
 from punctura.identify.doubts import NOT_EXPLAINED, doubts
 from punctura.identify.fit import Misfit, fit
 from punctura.identify.intervals import Estimate, estimates
-from punctura.identify.maybe_walls import maybe_walls
 from punctura.identify.model import Model
 from punctura.identify.parameters import Parameters, default_coupling, default_membrane
 from punctura.identify.report import report_html
@@ -218,19 +217,6 @@ def test_a_wall_that_cannot_be_there_is_named_and_one_beyond_is_left_out_first(p
     if kind == "wall_beyond":
         (fewer,) = without_a_wall(whole, segment(made))
         assert np.array_equal(fewer.membranes, start.membranes)
-
-
-@pytest.mark.parametrize(("apart", "doubtful"), [(20e-6, True), (2e-3, False)])
-def test_two_walls_that_pop_within_three_samples_may_be_one(apart, doubtful):
-    half, (time, depth) = pn.Membrane(300, 0.15, MEMBRANE.friction, MEMBRANE.thickness), motion()
-    force = force_of(depth, membrane=half) + force_of(depth, 5e-3 + apart, half)
-    made = Trace(depth, force + 8e-3 * np.random.default_rng(1).normal(size=len(depth)), time)
-    rows = np.array([default_membrane()] * 2)
-    rows[:, :5] = 5e-3, half.stiffness, half.precompression, half.friction, half.thickness
-    rows[1, 0] += apart
-    start = Parameters(NEEDLE, rows, default_coupling(4000.0))
-    found = maybe_walls(fit(Misfit(made, start), ("offset",), start))
-    assert [cause.kind for cause in found] == ["maybe_wall"] * doubtful
 
 
 @pytest.mark.parametrize("causes", [(), (Cause("wall_in_air", 0.0, "The model has 0.1 N of tissue in air"),)])
