@@ -205,8 +205,8 @@ def in_words(summary: RunSummary, shown: Collection[str] = ()) -> str:
         f"strongest {MODEL_FORCE} {summary.peak_N:.3g} N, "
         + (f"cut by {summary.limits_in_words}" if summary.limited_ticks else "never cut by a limit"),
     ]
-    if summary.short:
-        lines.insert(2, f"  {summary.short}")
+    if summary.too_few_ticks:
+        lines.insert(2, f"  {summary.too_few_ticks}")
     if summary.second_device:
         lines.append(
             f"  thumb on {summary.second_device}: strongest felt force {summary.thumb_peak_N:.3g} N, "

@@ -80,7 +80,9 @@ class RunSummary:
     thumb_peak_N: float = 0.0  # felt force of the thumb on the second device
     injected_m3: float = 0.0  # the most that had left the scene's syringe
     fault: str = ""  # in words; empty: none
-    short: str = ""  # why it has fewer ticks than the duration asks for; empty: it has them, or none was asked for
+    too_few_ticks: str = (
+        ""  # why there are fewer than the duration asks for; empty: there are not, or none was asked for
+    )
     late: int = 0  # ticks that came late
     compute_p99_9_s: float = 0.0  # of a tick: 99.9 % were faster
     period_p50_s: float = 0.0  # from tick to tick, median
@@ -94,7 +96,7 @@ class RunSummary:
     phases: list[str] = field(default_factory=list)  # now, in each membrane
     state: str = "disarmed"  # now: a ServoState
     force_was_on: bool = False  # at any time
-    began_s: float | None = None  # of the first tick, since the start
+    start_s: float | None = None  # of the first tick, since the start
     time_s: float = 0.0  # since the start
 
     @classmethod
@@ -109,7 +111,7 @@ class RunSummary:
         if n == 0:
             return
         self.ticks += n
-        self.began_s = float(ticks.time[0]) if self.began_s is None else self.began_s
+        self.start_s = float(ticks.time[0]) if self.start_s is None else self.start_s
         self.lost = int(tick[-1]) + 1 - self.ticks
         self.force_scale = float(ticks.force_scale[-1])
         self.felt_peak_N = max(self.felt_peak_N, strongest(ticks.force, ticks.ceiling))
@@ -143,11 +145,11 @@ class RunSummary:
         self.period_p50_s = report["period"]["p50"]
         self.statements = [*statements_of(loop.device, thumb), *run_notes(loop)]
         self.add_trouble(loop.device, thumb)
-        if duration is not None and self.began_s is not None:
+        if duration is not None and self.start_s is not None:
             ended = bool(getattr(loop.device, "finished", False))
-            span, longest = self.time_s - self.began_s, report["period"]["largest"]
+            span, longest = self.time_s - self.start_s, report["period"]["largest"]
             ticked = (duration, self.rate_hz, report["ticks"], span, self.late, longest, ended, self.fault)
-            self.short = Ticked(*ticked).why_short()
+            self.too_few_ticks = Ticked(*ticked).why_short()
 
     def add_trouble(self, device: Device, thumb: ThumbLoop | None = None) -> None:
         """Adds the devices' explanations of a fault, or of trouble outside ticks."""

@@ -148,7 +148,7 @@ def test_the_cause_is_named(changed, said):
 def test_a_device_that_ends_before_the_duration_is_named_in_the_summary():
     device = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=400)
     summary = run_live(device, SCENE, 2.0)
-    assert summary.ticks == 400 and summary.short.startswith("400 ticks came, and 2 s at 1600 Hz are 3200")
-    assert "the device ended" in summary.short
+    assert summary.ticks == 400 and summary.too_few_ticks.startswith("400 ticks came, and 2 s at 1600 Hz are 3200")
+    assert "the device ended" in summary.too_few_ticks
     again = SimulatedDevice(Target([0, 5e-3, 0]), real_time=False, ticks=400)
-    assert run_live(again, SCENE).short == ""
+    assert run_live(again, SCENE).too_few_ticks == ""
