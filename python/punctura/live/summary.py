@@ -80,9 +80,7 @@ class RunSummary:
     thumb_peak_N: float = 0.0  # felt force of the thumb on the second device
     injected_m3: float = 0.0  # the most that had left the scene's syringe
     fault: str = ""  # in words; empty: none
-    too_few_ticks: str = (
-        ""  # why there are fewer than the duration asks for; empty: there are not, or none was asked for
-    )
+    too_few_ticks: str = ""  # why there are fewer than the duration asks for; empty: there are enough
     late: int = 0  # ticks that came late
     compute_p99_9_s: float = 0.0  # of a tick: 99.9 % were faster
     period_p50_s: float = 0.0  # from tick to tick, median
