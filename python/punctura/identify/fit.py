@@ -27,7 +27,7 @@ FURTHER, LITTLE = 30, 0.1  # evaluations of a round after the last one, and what
 NEAR = 2  # samples on both sides, for a speed
 _KEPT = [ZERO.index(RIG_FORCES[i]) for i in KEPT]
 ROUNDS = 20  # of them, at most
-HOPELESS = 2.0  # times the squares of the best search so far: one that will not come below them goes on no longer
+HOPELESS = 2.0  # times the squares of the best search so far: one that creeps above them goes on no longer
 
 
 class Misfit:
@@ -241,27 +241,27 @@ def fit(
     If the pop of a wall enters or leaves the trace on the way, one more search has its other coordinate (see Free).
 
     A search that creeps along a valley counts as ended: more steps gain less than a tenth of the variance of a sample.
-    Raises TraceError if the last search does not end, creeps where the squares are above `hopeless`, N^2, or will not
-    come below, or ends where the derivatives overflow, as those of a steep grip do.
+    Raises TraceError if the last search does not end, creeps where the squares are above `hopeless`, N^2, or ends where
+    the derivatives overflow, as those of a steep grip do.
     """
     free = misfit.free(names, start)
     u = free.coordinates(start)
     count = 0
     for blur in blurs:
-        u, more, message = _search(misfit, free, u, blur, evaluations, hopeless)
+        u, more, message = _search(misfit, free, u, blur, evaluations)
         count += more
     other = misfit.free(names, free.parameters(u))
     if other.walls != free.walls:
         u, free = other.coordinates(free.parameters(u)), other
-        u, more, message = _search(misfit, free, u, 0, evaluations, hopeless)
+        u, more, message = _search(misfit, free, u, 0, evaluations)
         count += more
     rounds = ROUNDS if message and blurs[-1] == 0 else 0
     cost = _cost(misfit, free, u)
     for i in range(rounds):
         before = cost
         if cost > hopeless:
-            raise TraceError(f"the fit is given up after {count} evaluations, far from the best one")
-        u, more, message = _search(misfit, free, u, 0, FURTHER, hopeless)
+            raise TraceError(f"the fit creeps after {count} evaluations, far from the best one")
+        u, more, message = _search(misfit, free, u, 0, FURTHER)
         count, cost = count + more, _cost(misfit, free, u)
         if not message or before - cost <= LITTLE * before / len(misfit.trace):
             break
@@ -327,9 +327,7 @@ def best_of(ends: Sequence[Fit]) -> Fit:
     return replace(best, others=(*(other for end in ends for other in end.others), *near))
 
 
-def _search(
-    misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int, hopeless: float = np.inf
-) -> tuple[Array, int, str]:
+def _search(misfit: Misfit, free: Free, u: Array, blur: int, evaluations: int) -> tuple[Array, int, str]:
     """The coordinates of the least squares, the number of evaluations, and a message if the search did not end."""
     if len(u) == 0:
         return u, 0, ""
@@ -339,6 +337,6 @@ def _search(
     found, count, ended = least_squares(
         lambda at: misfit.residuals(free, at * units, blur), lambda at: misfit.jacobian(free, at * units, blur) * units,
         u / units, ((free.low + margin) / units, (free.high - margin) / units),
-        1e-3 if blur else 1e-7, 1e-7, most, np.inf if blur else hopeless,
+        1e-3 if blur else 1e-7, 1e-7, most,
     )  # fmt: skip
     return found * units, count, "" if ended else f"no end within {most} evaluations"

@@ -21,7 +21,7 @@ from punctura.trace.rig_force import RIG_FORCES, SLIDE_WAY
 Array = NDArray[np.float64]
 
 SEARCHES, OUTWARDS = 8, 1.5  # of a bound that moves outwards: how often, and by which factor
-NEAR = 2.0  # times the rise that a bound may have: a search that will not come below it goes on no longer
+NEAR = 2.0  # times the rise that a bound may have: a search that creeps above it goes on no longer
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ Array = NDArray[np.float64]
 POOR, GOOD = 0.25, 0.75  # shares of the promised gain: then the trust region shrinks, or grows
 FLAT = 1e-14  # of the greatest eigenvalue: a direction without effect
 NEAREST = 1e-12  # to a bound
-HOPE = 10.0  # times what the linear model gains: no search gains more from there on
 SHORT = 0.995  # of the way to a bound, that a step goes at most
 
 
@@ -25,14 +24,12 @@ def least_squares(
     gain: float,
     step: float,
     evaluations: int,
-    hopeless: float = np.inf,
 ) -> tuple[Array, int, bool]:
     """The coordinates of the least squares from `start`, the number of evaluations, and whether the search ended.
 
     Steps are those of Gauss and Newton within a trust region. Its axes are the lengths of the derivatives (Moré 1978),
     and longer where the search nears a bound (Coleman and Li 1996), so that it does not run into it. The search ends
-    where the squares fall by less than the share `gain`, or the coordinates move by less than the share `step`. It is
-    given up, which is no end, where they will not come below `hopeless`.
+    where the squares fall by less than the share `gain`, or the coordinates move by less than the share `step`.
     """
     low, high = bounds
     at = np.clip(start, low, high)
@@ -51,8 +48,6 @@ def least_squares(
             return at, count, True
         values = np.maximum(values, FLAT * values[-1])
         downhill = -vectors.T @ (slope / axes)
-        if squares - HOPE * float(downhill @ (downhill / values)) > hopeless:
-            return at, count, False
         radius = radius or _length(at * axes) or 1.0
         less = 0.0
         while not less > 0:
