@@ -29,7 +29,7 @@ _LOGARITHMIC = {
     "stiffness", "friction", "thickness", "tip_length", "tail_length", "coupling_stiffness", "relaxation_1_time",
     "relaxation_2_time",
 }  # fmt: skip
-_RANGES = {  # of a trace of the usual scale
+_RANGES = {  # of a trace of the usual scale; others have these and their own
     "stiffness": (1e-1, 1e7), "precompression": (0.0, 1e4), "friction": (1e-4, 1e2), "thickness": (1e-6, 0.3),
     "tip_length": (1e-5, 0.1), "growth": (-5e4, 5e4), "tail_length": (1e-5, 0.1), "tail_floor": (0.0, 1.0),
     "cutting": (0.0, 1e4), "set": (0.0, 0.98), "coupling_stiffness": (1.0, 1e7), "coupling_damping": (0.0, 1e3),
@@ -145,7 +145,7 @@ class Free:
         """base: gives all other values, and says which walls pop. deepest: the greatest depth of the trace, m.
 
         zero: the range of the offset, N, if no drift is free. speed: m/s, at which the needle comes to a depth, m.
-        scale: of force and depth (Trace.scale): the bounds follow it, so a law in other units has the same fit.
+        scale: of force and depth (Trace.scale). Bounds become wider by it, never narrower.
         """
         self.names = tuple(names)
         self._zero = (-np.inf, np.inf) if "drift" in self.names else zero
@@ -184,7 +184,7 @@ class Free:
             return self._zero
         low, high = _RANGES.get(kind, (-np.inf, np.inf))
         unit = 1.0 if kind in LATE else _unit(kind, self._scale)
-        return low * unit, high * unit
+        return min(low, low * unit), max(high, high * unit)
 
     def _coordinates(self, values: Array) -> Array:
         return np.where(self._log, np.log(np.where(self._log, values, 1.0)), values)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import islice, pairwise
 
 import numpy as np
 
@@ -26,11 +26,14 @@ def in_means(trace: Trace, segments: Segments) -> Trace:
     """A long trace as means of neighbouring samples, fewer than twice MOST_SAMPLES; the same trace if it is short.
 
     White noise becomes smaller by the square root of their number, and slow noise stays, so the means tell as much. A
-    rest, however long, leaves at least MOVING samples of the motion.
+    rest, however long, leaves at least MOVING samples of the motion. A trace that turns without a rest stays as it is:
+    the mean around a turn is less deep than the turn, and friction and spring would follow from a wrong depth.
     """
     moving = sum(stroke.end - stroke.start for stroke in segments.strokes if stroke.kind != "hold")
     count = min(len(trace) // MOST_SAMPLES, moving // MOVING)
-    return trace.means(count) if count > 1 else trace
+    whole = [one.kind for one in segments.strokes if one.kind != "hold" or one.end - one.start >= 2 * count]
+    turns = any({one, other} == {"in", "out"} for one, other in pairwise(whole))
+    return trace.means(count) if count > 1 and not turns else trace
 
 
 def mean_words(before: Trace, after: Trace) -> tuple[str, ...]:

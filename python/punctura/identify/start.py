@@ -96,7 +96,8 @@ def _search(trace: Trace, segments: Segments, needle: Needle, membranes: int) ->
 def _around(insertion: Trace, contact: float, ends: Array, own: Array, needle: Needle) -> Iterator[ProfileFit]:
     tip = needle.diameter / np.tan(needle.tip_angle)
     of_force, of_depth = insertion.scale
-    least, most = (stiffness * of_force / of_depth for stiffness in (SOFTEST, STIFFEST))
+    unit = of_force / of_depth
+    least, most = SOFTEST * min(unit, 1.0), STIFFEST * max(unit, 1.0)
     way = max(float(ends[0]) - contact, SHORTEST * of_depth)
     left = way - tip  # of the way from contact to the pop: the spring gives
     soft = own[0] / left if left > 0.02 * way else np.inf

@@ -45,6 +45,12 @@ def test_a_long_rest_costs_no_samples_of_the_motion():
     assert in_means(slow, segment(slow)) is slow
 
 
+def test_a_trace_that_turns_without_a_rest_keeps_its_samples():
+    for hold in (0.0, 1e-3):
+        made = long_trace(hold)
+        assert in_means(made, segment(made)) is made
+
+
 def test_means_take_the_draws_of_the_depth_and_the_rig_along():
     rows = np.arange(11.0)
     slide = Slide(rows, np.zeros(1), np.ones(1))
