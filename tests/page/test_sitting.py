@@ -48,7 +48,7 @@ def test_a_session_by_keys_shows_one_sentence_and_goes_on_after_a_kill(browser, 
             until(page, "Did it pop?")
             page.keyboard.press("n")
             sentence(page, "That was the last trial.")
-        assert "without the masking noise" not in studio.log()
+        assert "masking noise" not in studio.log()
     assert [line.answer for line in on_disk(tmp_path)][18:] == ["yes", "no"]
 
 

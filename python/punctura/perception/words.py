@@ -28,13 +28,14 @@ class WordsTable(Table):
     wrong: Text = "No, it was another one."
     block: Text = "A block is over."
     rest: Text = "Rest for at least {seconds} s."
-    early: Text = "The needle was in the tissue too early."  # this and the next six: why a trial is repeated
+    early: Text = "The needle was in the tissue too early."  # this and the next seven: why a trial is repeated
     weak: Text = "The force was not on yet: wait a moment before you push."
     short: Text = "The needle did not go through the tissue."
     cut: Text = "The device could not give the whole force: push more slowly, and rest a moment."
     off: Text = "The force was turned off."
     fault: Text = "The device has stopped its force. If that happens again, please call the experimenter."
     failed: Text = "Something went wrong, but not by you. If that happens again, please call the experimenter."
+    unmasked: Text = "The masking noise did not play: touch the page, or press a key."
     repeated: Text = "The trial is repeated."
     back: Text = "The force comes back when you go on."
     paused: Text = "The session has paused. Please call the experimenter."

@@ -54,7 +54,7 @@ class Activity(Protocol):
 class Sitting(Protocol):
     """A participant's session: the pages see and do nothing else. docs/perception.md"""
 
-    noise_plays: bool  # at the page, as it says
+    noise_plays: bool  # at the page that has control, as it says
 
     def respond(self, question: int, answer: str) -> None:
         """The answer of a page, in the worker's thread."""

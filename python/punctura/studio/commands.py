@@ -42,7 +42,7 @@ def prepare(request: ask.NumberedRequest, session: Session) -> Job:
         case ask.Respond():
             return lambda session: _respond(session, request)
         case ask.Sound():
-            return lambda session: _sound(session, request.plays)
+            return lambda session: sound(session, request.plays)
         case ask.Arm():
             return lambda session: session.arm()
         case ask.Reset():
@@ -90,7 +90,8 @@ def _respond(session: Session, request: ask.Respond) -> None:
         session.sitting.respond(request.question, request.answer)
 
 
-def _sound(session: Session, plays: bool) -> None:
+def sound(session: Session, plays: bool) -> None:
+    """plays: whether the page that has control plays the masking noise."""
     if session.sitting:
         session.sitting.noise_plays = plays
 

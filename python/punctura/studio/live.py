@@ -11,7 +11,7 @@ from pydantic import BaseModel, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from punctura.defects import explain
-from punctura.studio.commands import prepare, refusal
+from punctura.studio.commands import prepare, refusal, sound
 from punctura.studio.hub import Hub, Viewer
 from punctura.studio.limits import MOST_TEXT
 from punctura.studio.session import Session
@@ -65,6 +65,8 @@ async def serve_viewer(socket: WebSocket, hub: Hub, session: Session, hello: Cal
             with contextlib.suppress(Exception):  # it may be closed already
                 await asyncio.wait_for(socket.close(REFUSED, reason[:120]), 2)
     finally:
+        if hub.holder == viewer.number:
+            session.jobs.post(lambda: sound(session, False))
         hub.leave(viewer)
         for task in (sender, reader, worker):
             task.cancel()

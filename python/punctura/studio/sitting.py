@@ -34,6 +34,7 @@ from punctura.studio.wire.messages import AnswerKey, SittingMessage
 from punctura.ticks import ABSENT, COMMAND_SCENE, Ticks
 
 GO = {"go_on": "Enter"}
+UNMASKED = Spoilt("unmasked", "the browser did not play the masking noise: click its page once, or allow it sound")
 ENDED = Spoilt("failed", "the ticks have ceased: check the connection of the device")
 MEND = f"mend this (on a full disk, {FREE_SPACE})"
 Then = Callable[[str], None]  # gets an answer
@@ -71,7 +72,7 @@ class PerceptionSitting:
         self._through = math.inf  # depth behind the judged membrane, m
         self._whole = self._faded = 0.0  # ticks since the force came on, and since the last stimulus began to fade in
         self._last = -1  # tick
-        self._touched = self._was_through = self._uncovered = False
+        self._touched = self._was_through = self._uncovered = self._unmasked = False
         self._answers: Answers | None = None
         if agreed(protocol, self._folder, participant) or not protocol.file.consent:
             self._open()
@@ -181,7 +182,7 @@ class PerceptionSitting:
         """The interval begins: the needle may go through the tissue as soon as the view is uncovered."""
         self._say(self._words.wait)
         self._through = crossing(self._scene().scene, self._protocol.membrane, 1.0).through
-        self._touched = self._was_through = self._over = self._uncovered = False
+        self._touched = self._was_through = self._over = self._uncovered = self._unmasked = False
 
     def _ready(self) -> bool:
         """Whether the force is whole and the stimulus has faded in: both grow by ticks, which may be slow."""
@@ -257,8 +258,6 @@ class PerceptionSitting:
         self._say(self._words.paused, GO, then)
 
     def _ask(self, felt: list[Felt]) -> None:
-        if self._protocol.file.noise and not self.noise_plays:
-            self._tell(f"{self._this()} was felt without the masking noise: press a key or click at the page")
         answers, question = self._protocol.answers, self._protocol.file.question
         number = "" if answers else self._words.number
         self._say(question, answers, lambda answer: self._save(answer, felt), typed=number)
@@ -305,7 +304,9 @@ class PerceptionSitting:
         self._faded = _since(gaps | (ticks.commands & COMMAND_SCENE != 0), self._faded)
         if self._over:
             return ()
-        outside = bool(np.isin(ticks.phase[-1], (int(Phase.outside), ABSENT)).all())
+        inside = ~np.isin(ticks.phase, (int(Phase.outside), ABSENT))
+        outside = not inside[-1].any()
+        self._unmasked |= self._protocol.file.noise and not self.noise_plays and bool(inside.any())
         self._touched |= not outside
         self._was_through |= bool((ticks.depth[:, self._protocol.membrane] >= self._through).any())
         if not self._uncovered and self._ready():
@@ -314,7 +315,7 @@ class PerceptionSitting:
         elif self._touched and not self._was_through and outside:
             self._touched = False
             self._say(f"{self._words.deeper} {self._sentence()}", covered=not self._protocol.file.picture)
-        why = self._lost(Fault(int(ticks.fault[-1])))
+        why = self._lost(Fault(int(ticks.fault[-1]))) or (UNMASKED if self._unmasked and outside else None)
         if why or (self._was_through and outside):
             self._over = True
             self._studio.jobs.post(partial(self._finish, why) if why else self._explored)

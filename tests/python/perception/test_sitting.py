@@ -1,65 +1,29 @@
 """A session in the studio without a browser: what the page is told, what it answers, what the needle did."""
 
 import errno
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
+from participant import SCALED, TOLD, sat, saved
 from protocols import COMPARES, RIGHT, YES, written
 from punctura._core import DeviceError, Fault, ForceLimits
 from punctura.live import RunLimits
 from punctura.perception import DiskFullError, Session, SessionError, load_protocol, read_session, write_report
-from punctura.perception.course import Line
 from punctura.perception.session import check_recordings
 from punctura.record import open_recording
 from punctura.record.append_file import AppendFile
 from punctura.record.header import from_text
-from punctura.results import JsonObject
 from punctura.studio.client import StudioClient
-from punctura.studio.loaded import Loaded, from_name
+from punctura.studio.loaded import Loaded
 from punctura.studio.run import Run, Settings
-from punctura.studio.serve import StudioServer
 from punctura.studio.sitting import PerceptionSitting
 from punctura.ticks import COMMAND_SCENE, Ticks
 from pydantic import BaseModel
 from waiting import LATE_ALLOWED, wait_until
 
-TOLD: list[str] = []  # at the terminal
 REMEDY = 'mend this (on a full disk, free some space), then press "Go on" at the page'
-SCALED = '[values]\n"display.force_scale" = 0.8\n'
-
-
-class Person:
-    """Reads the page, answers, and moves the needle."""
-
-    def __init__(self, page: StudioClient) -> None:
-        self.page = page
-
-    @property
-    def _last(self) -> JsonObject:
-        return (self.page.of("sitting") or [{"sentence": ""}])[-1]
-
-    def reads(self, words: str) -> None:
-        self.page.wait(lambda: words in self._last["sentence"])
-        self.now = self._last
-
-    def answers(self, name: str, **more: int) -> None:
-        assert self.page.ask(**{"do": "respond", "question": self.now["question"], "answer": name, **more})["ok"]
-        self.page.wait(lambda: self._last["question"] > self.now["question"])
-
-    def goes_through(self, words: str = "push the needle", depth: float = 0.012) -> None:
-        """Through the membrane, if it is thinner than that, and out again."""
-        self.reads(words)
-        membrane = self.page.of("scene")[-1]["scene"]["membranes"][0]
-        point, inward = np.array(membrane["point"]), np.array(membrane["inward_normal"])
-        for place, what in ((depth, "pop" if depth > 0.01 else "touch"), (-0.005, "out")):
-            before = len(self.page.of("event"))
-            self.page.target((point + place * inward).tolist(), inward.tolist())
-            self.page.wait(lambda n=before, what=what: what in [event["what"] for event in self.page.of("event")[n:]])
-
-
 GERMAN = """
 [words]
 agree = "Sind Sie einverstanden?"
@@ -70,28 +34,8 @@ second = "zweite"
 """
 
 
-@contextmanager
-def sat(folder: Path, text: str, limits: ForceLimits | None = None) -> Iterator[tuple[Person, StudioServer]]:
-    protocol = load_protocol(written(folder, text + SCALED))
-    base = from_name(protocol.scene_name)
-    settings = Settings("simulated", limits=RunLimits(limits or ForceLimits(), LATE_ALLOWED))
-    server = StudioServer(base, settings, page=folder, folder=folder / "out")
-    try:
-        server.session.sitting = sitting = PerceptionSitting(server.session, protocol, base, "P01", TOLD.append)
-        server.session.call(sitting.start)
-        server.start()
-        with StudioClient(server.address.url) as page:
-            yield Person(page), server
-    finally:
-        server.stop()
-
-
 def raised(error: Exception) -> None:
     raise error
-
-
-def saved(folder: Path) -> list[Line]:
-    return read_session(folder / "out" / "P01.jsonl")[1]
 
 
 def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
@@ -105,11 +49,11 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
         person.answers("ja")
         person.reads("The session begins.")  # what is left out is English
         person.answers("Weiter")
+        assert person.page.ask(do="sound", plays=True)["ok"]
         person.goes_through("Durchgang 1, Teil 1: push the needle through the tissue")
         person.goes_through("Durchgang 1, Teil 2: push the needle through the tissue")
         person.reads("Which one fell more?")
         assert [one["key"] for one in person.now["answers"]] == ["1", "2"] and person.now["covered"]
-        assert TOLD[-1].startswith("trial 1 of P01 was felt without the masking noise: press a key or click")
         person.answers("zweite")
         person.reads("Durchgang 2")
         (first,) = saved(tmp_path)
@@ -131,6 +75,29 @@ def test_a_session_is_recorded_and_goes_on(tmp_path: Path) -> None:
     with sat(tmp_path, text) as (person, _):
         person.reads("No haptic device")
         person.reads("1 of 120 trials are done.")
+
+
+def test_a_trial_without_the_masking_noise_is_repeated(tmp_path: Path) -> None:
+    """Also if the noise ceases in the last interval alone, or the page that played it is gone."""
+    with sat(tmp_path, "noise = true\n" + COMPARES) as (person, server):
+        person.reads("The session begins.")
+        for plays in ((False,), (True, False), (True, True)):
+            person.answers("Go on")
+            for interval, sound in enumerate(plays, 1):
+                person.reads(f"interval {interval}")
+                assert person.page.ask(do="sound", plays=sound)["ok"]
+                person.goes_through()
+            if not all(plays):
+                person.reads("The masking noise did not play: touch the page, or press a key. The trial is repeated.")
+                assert TOLD[-1].endswith("did not play the masking noise: click its page once, or allow it sound")
+        person.reads("Which one fell more?")
+        assert not saved(tmp_path)
+        person.answers("first")
+        person.reads("Trial 2")
+        person.page.close()
+        wait_until(lambda: not server.session.sitting.noise_plays)
+    (line,) = saved(tmp_path)
+    assert line.recordings == ("P01-0000-3.parquet",)
 
 
 def test_everything_that_is_written_names_the_device(tmp_path: Path) -> None:
