@@ -18,7 +18,7 @@ from punctura.perception.analysis import END, RATE, Answers, analyse, answers_of
 from punctura.perception.course import Line, counted
 from punctura.perception.drift import sentences
 from punctura.perception.protocol import Protocol
-from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Person, words
+from punctura.perception.results import LEVEL, SHARES, Analysis, Detection, Person, no_mean, words
 from punctura.perception.session import (
     SUFFIX,
     TABLES,
@@ -182,7 +182,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         rows.append([one.participant, trials, *cells, blocks])
     if not found.reason:
         known, counted = sum(not one.reason for one in found.people), sum(not one.copy_of for one in found.people)
-        means = [words(getattr(found, key, None)) for key in keys]
+        means = [words(getattr(found, key)) if hasattr(found, key) else "" for key in keys]
         rows.append([f"**mean of {known} of {counted} people**", "", *means, ""])
     lines = [
         f"# {_safe(file.title)}", "", f"*{_safe(file.question)}*", "",
@@ -191,7 +191,7 @@ def _text(protocol: Protocol, found: Analysis, drawn: bool) -> str:
         f"{_safe(file.source) or 'not given'}.", "",
         *_table(["participant", "trials", *keys.values(), f"{shares} in each block"], rows),
     ]  # fmt: skip
-    lines += [f"No mean: {found.reason}.", ""] if found.reason else []
+    lines += [line for text in no_mean(found, keys) for line in (text, "")]
     if part := [one.participant for one in found.people if one.planned]:
         lines += [UNFINISHED.format(names=" and ".join(part)), ""]
     lines += [line for text in sentences(protocol, found) for line in (text, "")]

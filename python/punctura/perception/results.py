@@ -1,5 +1,6 @@
 """What the analysis tells: of a level, of a participant, of all."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +69,22 @@ class Analysis(BaseModel):
     change: Estimate | None = None  # mean of the people
     shift: Estimate | None = None  # mean of the people
     reason: str = ""  # why there are no means
+
+
+def no_mean(found: Analysis, titles: Mapping[str, str]) -> list[str]:
+    """Why there is no mean of some numbers, or of all. titles: of the numbers."""
+    if found.reason:
+        return [f"No mean: {found.reason}."]
+    known, lacking = [one for one in found.people if not one.reason], dict[str, list[str]]()
+    for key, title in titles.items():
+        of = {one.participant: getattr(one, key) for one in known}
+        if key in Analysis.model_fields and getattr(found, key) is None and any(of.values()):
+            names = [name for name, one in of.items() if one is None or not np.isfinite(one).all()]
+            lacking.setdefault(f"{' and '.join(names)} {'have' if len(names) > 1 else 'has'}", []).append(title)
+    return [
+        f"No mean of {' and of '.join(some)}: it needs a number of everybody, and {who} none, or only a bound."
+        for who, some in lacking.items()
+    ]
 
 
 def words(one: Estimate | None) -> str:

@@ -13,7 +13,8 @@ from punctura.perception.course import Course, Kind, Line
 from punctura.perception.observer import Senses
 from punctura.perception.power import power, with_trials
 from punctura.perception.psychometric import Shape, posterior
-from punctura.perception.results import words
+from punctura.perception.report import _text
+from punctura.perception.results import Analysis, Person, words
 from scipy.optimize import minimize
 from scipy.special import ndtr, ndtri
 
@@ -268,3 +269,18 @@ def test_more_trials_and_people_make_smaller_intervals(senses: dict[str, Senses]
     assert [(row.trials, row.people) for row in rows] == [(60, 2), (60, 5), (240, 2), (240, 5)]
     assert rows[0].person_width > 1.5 * rows[2].person_width
     assert rows[2].mean_width > 1.2 * rows[3].mean_width
+
+
+def test_the_report_names_who_has_no_number_for_a_mean(tmp_path: Path) -> None:
+    whole, bound = Estimate(0.4, 0.3, 0.5), Estimate(np.nan, -np.inf, 0.5)
+    people = [
+        Person(participant=f"P0{i}", trials=120, threshold=whole, jnd=jnd, weber=jnd)
+        for i, jnd in enumerate((whole, bound, None, bound), 1)
+    ]
+    people[3].reason, protocol = "every answer was wrong", load_protocol(written(tmp_path, COMPARES))
+    report = _text(protocol, Analysis(protocol="", unit="", felt=False, people=people, threshold=whole), False)
+    said = "No mean of JND and of Weber fraction: it needs a number of everybody, and P02 and P03 have none, or only a"
+    assert said in report and report.count("No mean") == 1
+    people[1].jnd = people[1].weber = people[2].jnd = people[2].weber = whole
+    means = Analysis(protocol="", unit="", felt=False, people=people, threshold=whole, jnd=whole, weber=whole)
+    assert "No mean" not in _text(protocol, means, False)
