@@ -57,8 +57,10 @@ def build_app(verb: str = "") -> typer.Typer:
         rich_markup_mode=None,
     )
     names = _verbs()
-    if verb in names or verb == "--version":
-        names = [verb] if verb in names else []
+    if verb == "--version":
+        names = []
+    elif verb in names:
+        names = [verb]
     for name in names:
         command = importlib.import_module(f"punctura.cli.{name.replace('-', '_')}").command
         if isinstance(command, typer.Typer):  # a verb with verbs of its own

@@ -29,7 +29,7 @@ def maybe_walls(fit: Fit, pops: bool) -> tuple[Cause, ...]:
     end = int(np.argmax(trace.depth)) + 1
     doubtful, tops = [], []
     if not pops:
-        doubtful.append("no wall pops, so that the way in which the force rises alone tells their number")
+        doubtful.append("no wall pops, so only the shape of the rise tells how many there are")
     for i, wall in enumerate(parameters.membranes):
         force = model.forces([wall], parameters.coupling, False)[0][:end]
         top = int(np.argmax(force))

@@ -40,7 +40,8 @@ def mean_words(before: Trace, after: Trace) -> tuple[str, ...]:
     """A sentence for a trace of which means are used."""
     if len(after) == len(before):
         return ()
-    way = float(np.median(np.abs(np.diff(after.depth))))
+    steps = np.abs(np.diff(after.depth))
+    way = float(np.median(steps[steps > 0.5 * np.mean(steps)]))  # of the motion, however long a rest is
     return (
         f"The trace has {len(before)} samples, so the fit is to the {len(after)} means of each "
         f"{len(before) // len(after)} neighbouring ones, {way * 1e3:.2g} mm apart. Samples and noise are those of the "
