@@ -3,6 +3,7 @@
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -22,25 +23,37 @@ READY = {name: file.read_text() for name, file in protocol_files().items()}
 WIDE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 8))  # as without any knowledge of the threshold
 WIDE_FINE = with_levels(RIGHT, 0.41 + np.geomspace(0.005, 0.64, 25))  # the same, for methods that choose
 WALL_FINE = with_levels(READY["wall-thickness"], np.geomspace(0.0005, 0.008, 25))
-Row = tuple[str, str, str, int, Observer]
-ROWS: list[Row] = [  # title, protocol, method, trials, observer
-    ("drop, two sides, first liked", READY["pop-jnd"], "constant", 216, Observer(weber=0.1, bias=0.01)),
-    ("two sides, first liked", COMPARES, "constant", 240, Observer(weber=0.06, bias=0.02)),
-    ("the same, of a person with 2 % lapses", COMPARES, "constant", 240, Observer(weber=0.06, bias=0.02)),
-    ("two sides", with_levels(COMPARES, np.linspace(0.2, 0.62, 25)), "quest", 120, SHARP),
-    ("right answers", WIDE, "constant", 480, SHARP),
-    ("right answers", WIDE, "constant", 720, SHARP),
-    ("right answers", WIDE_FINE, "staircase", 240, SHARP),
-    ("right answers", WIDE_FINE, "quest", 240, SHARP),
-    ("drop, yes or no", YES_N, "constant", 240, FAINT),
-    ("drop, yes or no", YES_N, "staircase", 120, FAINT),
-    ("drop, yes or no", YES_N, "quest", 120, FAINT),
-    ("`wall-thickness`", READY["wall-thickness"], "constant", 160, Observer(noise=0.03)),
-    ("its levels finer", WALL_FINE, "quest", 80, Observer(noise=0.03)),
-    ("`chatter`", READY["chatter"], "constant", 168, Observer(weber=0.0, noise=0.0008)),
-    ("`chatter`, more answers", READY["chatter"], "constant", 448, Observer(weber=0.0, noise=0.0008)),
-    ("`shaft-masking`", READY["shaft-masking"], "quest", 80, Observer(weber=0.0, noise=0.02)),
-    ("settings", ADJUST, "adjustment", 24, Observer(weber=0.03)),
+
+
+class Row(NamedTuple):
+    title: str
+    protocol: str
+    method: str
+    trials: int
+    observer: Observer
+    vary: bool = True  # each session is that of another person
+
+
+ROWS = [
+    Row("drop, two sides, first liked", READY["pop-jnd"], "constant", 216, Observer(weber=0.1, bias=0.01)),
+    Row("two sides, first liked", COMPARES, "constant", 240, Observer(weber=0.06, bias=0.02)),
+    Row(
+        "the same, of a person with 2 % lapses", COMPARES, "constant", 240, Observer(weber=0.06, bias=0.02), vary=False
+    ),
+    Row("two sides", with_levels(COMPARES, np.linspace(0.2, 0.62, 25)), "quest", 120, SHARP),
+    Row("right answers", WIDE, "constant", 480, SHARP),
+    Row("right answers", WIDE, "constant", 720, SHARP),
+    Row("right answers", WIDE_FINE, "staircase", 240, SHARP),
+    Row("right answers", WIDE_FINE, "quest", 240, SHARP),
+    Row("drop, yes or no", YES_N, "constant", 240, FAINT),
+    Row("drop, yes or no", YES_N, "staircase", 120, FAINT),
+    Row("drop, yes or no", YES_N, "quest", 120, FAINT),
+    Row("`wall-thickness`", READY["wall-thickness"], "constant", 160, Observer(noise=0.03)),
+    Row("its levels finer", WALL_FINE, "quest", 80, Observer(noise=0.03)),
+    Row("`chatter`", READY["chatter"], "constant", 168, Observer(weber=0.0, noise=0.0008)),
+    Row("`chatter`, more answers", READY["chatter"], "constant", 448, Observer(weber=0.0, noise=0.0008)),
+    Row("`shaft-masking`", READY["shaft-masking"], "quest", 80, Observer(weber=0.0, noise=0.02)),
+    Row("settings", ADJUST, "adjustment", 24, Observer(weber=0.03)),
 ]
 SESSIONS, SEED = 400, 211_000_000  # no prior and no method was chosen by sessions of these seeds
 
@@ -51,13 +64,12 @@ def sized(folder: Path, text: str, method: str, trials: int) -> Protocol:
 
 
 @pytest.mark.statistics
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}, {row[2]}")
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.title}, {row.method}")
 def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row) -> None:
     """Prints the rows of the table in docs/perception.md."""
-    title, text, method, trials, observer = row
+    title, text, method, trials, observer, vary = row
     protocol = sized(tmp_path, text, method, trials)
-    senses, vary = Senses(protocol, 64), "of a person" not in title
-    for what, one in coverage(protocol, observer, SESSIONS, SEED, senses, vary).items():
+    for what, one in coverage(protocol, observer, SESSIONS, SEED, Senses(protocol, 64), vary).items():
         low, high = binomtest(round(one.covered * one.intervals), one.intervals).proportion_ci(method="wilson")
         print(f"| {title} | {method}, {trials} | {what} | {one.covered:.1%} ({low:.1%} to {high:.1%}) "
               f"| {one.bias:+.1%} | {one.width:.3g} | {one.without:.1%} |")  # fmt: skip
@@ -65,9 +77,9 @@ def test_95_percent_of_the_intervals_hold_what_is_known(tmp_path: Path, row: Row
 
 
 @pytest.mark.statistics
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}, {row[2]}")
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.title}, {row.method}")
 def test_who_answers_at_random_gets_no_threshold(tmp_path: Path, row: Row) -> None:
-    title, text, method, trials, observer = row
+    title, text, method, trials, observer, _ = row
     protocol = sized(tmp_path, text, method, trials)
     guesses = Simulation(protocol, replace(observer, lapse=1.0), Senses(protocol, 1))
     given = sum(person(protocol, "", guesses.run(i, SEED + i)).threshold is not None for i in range(SESSIONS))

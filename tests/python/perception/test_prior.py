@@ -1,4 +1,4 @@
-"""How often the intervals hold if people scatter as the fit expects: those of test_analysis.py are usual ones."""
+"""How often the intervals hold if people scatter as the fit expects: those of test_coverage.py are usual ones."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -60,7 +60,7 @@ def test_over_its_prior_95_percent_of_the_intervals_hold_the_jnd() -> None:
 
 @pytest.mark.statistics
 def test_the_interval_of_the_jnd_holds_too_often_because_the_lapses_are_not_known(tmp_path: Path) -> None:
-    """The second row of test_analysis.py, and the same fits with what they do not know: the nearest values alone."""
+    """The third row of test_coverage.py, and the same fits with what they do not know: the nearest values alone."""
     loaded, observer = load_protocol(written(tmp_path, COMPARES)), Observer(weber=0.06, bias=0.02)
     protocol = with_trials(loaded, 240)
     simulation = Simulation(protocol, observer, Senses(protocol, 64))
