@@ -5,9 +5,10 @@ import re
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 from scipy.optimize import brentq
 
 from punctura import Scene
@@ -37,15 +38,16 @@ SMOOTH_S = 0.02  # what changes more slowly than this is no roughness
 MOST_MISS = 0.02  # of a wanted number of newtons
 BEFORE_POP_S = 0.01  # that the roughness leaves out
 READY_S = 0.25  # from a change of the scene, which fades in over 0.2 s, until the needle may touch
+Newtons = Annotated[Finite, Field(ge=-1000, le=1000)]  # no device gives as much to a hand
 
 
 class Felt(BaseModel, frozen=True, extra="forbid"):
     """The felt force of one interval, from its ticks. SI."""
 
-    drop: Finite  # N, at the pop of the judged membrane; 0 without a pop
+    drop: Newtons  # N, at the pop of the judged membrane; 0 without a pop
     contrast: Finite  # that drop as a share of the force before it
-    peak: Finite  # N, the largest of the run
-    roughness: Finite  # N rms about the mean of SMOOTH_S, from the first touch to just before the first pop
+    peak: Newtons  # N, the largest of the run
+    roughness: Newtons  # N rms about the mean of SMOOTH_S, from the first touch to just before the first pop
     speed: Finite  # m/s along the needle, mean from the first touch to the deepest place
     scale: Finite  # how much of the model's force the device gives
     pops: int

@@ -131,6 +131,7 @@ def changed(folder: Path, senses: Senses, wrong: Callable[[dict], dict]) -> Path
         (lambda line: {"kind": "catch"}, "line 6: kind is 'catch', and 'trial' is planned"),
         (lambda line: {"kind": ""}, "line 6: is no line of this session"),
         (lambda line: {"answer": "maybe"}, "line 6: 'maybe' to 2 intervals is no answer"),
+        (lambda line: {"felt": [one | {"peak": 1e300} for one in line["felt"]]}, "line 6: is no line of this session"),
         (lambda line: {"felt": []}, "line 6: 'first|second' to 0 intervals is no answer"),
         (lambda line: {"recordings": ["P02-0004-1.parquet"]}, "'P02-0004-1.parquet' is the name of another trial's"),
         (lambda line: {"answer": {"first": "second", "second": "first"}[line["answer"]]}, r"line \d+: level is "),
