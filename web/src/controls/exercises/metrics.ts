@@ -55,7 +55,7 @@ export function metricRows(metrics: Metrics, space = "the space"): MetricRow[] {
       },
       {
         label: "Loss of resistance felt, plunger",
-        value: loss ? lossText(loss) : "none: the thumb was a key",
+        value: loss ? lossText(loss) : "none: the thumb was a key or a button of the page",
         help: "Drop of the force that the second device gave the thumb, within 0.3 s.",
       },
       {

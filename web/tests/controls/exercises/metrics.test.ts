@@ -53,13 +53,13 @@ test("the thumb is told each time that the plunger gave way", () => {
   expect(metricRows(metrics).some(({ label }) => label.includes("plunger"))).toBe(false);
 });
 
-test("what the thumb felt is told, or that it was a key", () => {
+test("what the thumb felt is told, or that it was a key or a button", () => {
   const gave = { push: 4, push_after: null, injected: 0, seconds: 1, time: 0 };
   const loss = { before: 0.22, after: 0.1, needed: 0.1 } as PlungerLoss;
   const felt = (one: typeof loss | null) =>
     metricRows({ ...metrics, yields: [{ ...gave, loss: one }] }).find(({ label }) => label.endsWith("felt, plunger"));
   expect(felt(loss)?.value).toBe("0.12 N; 0.1 N needed");
-  expect(felt(null)?.value).toBe("none: the thumb was a key");
+  expect(felt(null)?.value).toBe("none: the thumb was a key or a button of the page");
 });
 
 test("measures are told in units for people; what there was not is a dash", () => {
