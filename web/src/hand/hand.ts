@@ -31,6 +31,9 @@ export class Hand {
   /** Why this page cannot move the hand, in words; null if it can. */
   readonly barred = new Signal<string | null>("Connecting to the studio.");
 
+  /** The last run in which this page's person tried to move the needle, with or without control. */
+  tried = -1;
+
   constructor(private readonly app: App) {
     const look = (): void => {
       this.barred.value = this.reason();
@@ -90,7 +93,14 @@ export class Hand {
     return { position: [x, y, z], axis: unit([axis[0] ?? 0, axis[1] ?? -1, axis[2] ?? 0]) };
   }
 
+  /** The pose from which a drag starts; null if this page cannot move the hand. */
+  grab(): Pose | null {
+    this.tried = this.run;
+    return this.barred.value ? null : this.pose();
+  }
+
   moveTo(position: Triple, axis?: Triple): void {
+    this.tried = this.run;
     const now = this.pose();
     if (this.barred.value || !now || !position.every(Number.isFinite)) return;
     const away = length(position);

@@ -19,7 +19,7 @@ export function flatGrip(app: App, hand: Hand, probe: Probe, thumb: Thumb, width
   let from: readonly [x: number, y: number] = [0, 0];
   return {
     grab(x, y, sideways) {
-      const pose = hand.barred.value ? null : hand.pose();
+      const pose = hand.grab();
       const scene = app.live.scene.value;
       if (!pose || !scene) return false;
       const { along, inward } = planeOf(skinFrame(scene), probe.place.value);

@@ -43,7 +43,7 @@ export function needleGrip(
   };
   return {
     grab(x, y, shift) {
-      const pose = hand.barred.value ? null : hand.pose();
+      const pose = hand.grab();
       if (!pose) return false;
       start.set(...pose.position).multiplyScalar(MM);
       axis.set(...pose.axis).normalize();

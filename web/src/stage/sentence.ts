@@ -54,8 +54,8 @@ export class Sentence {
     const watches = barred !== null && !you && app.connection.value.state === "open";
     if (barred && !watches) return barred;
     // A page that only looks on says what the person at the other one shall do.
-    if (watches && exercise?.running && (holder === null || this.moved === app.run.value))
-      return { text: barred, takeOver: true };
+    const wants = [this.moved, handOf(app).tried].includes(app.run.value);
+    if (watches && (wants || (exercise?.running && holder === null))) return { text: barred, takeOver: true };
     if (exercise?.running) return exercise.instruction;
     if (watches) return place(bands, now) || { text: barred, takeOver: true };
     if (!this.learnt && !over) return instruction(progress, skin, simulated, true);

@@ -11,8 +11,7 @@ const lean = Math.PI / 6; // to the skin
 function dragged(sideways: boolean, ...drags: [dx: number, dy: number][]): number[][] {
   const places: number[][] = [];
   const hand = {
-    barred: { value: null },
-    pose: () => ({ position: [0, 0.01, 0], axis: [Math.cos(lean), -Math.sin(lean), 0] }),
+    grab: () => ({ position: [0, 0.01, 0], axis: [Math.cos(lean), -Math.sin(lean), 0] }),
     moveTo: (place: number[]) => places.push(place),
   } as unknown as Hand;
   const scene = { membranes: [{ point: [0, 0, 0], inward_normal: [0, -1, 0] }] };

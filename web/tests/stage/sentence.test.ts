@@ -1,6 +1,7 @@
 import { beforeEach, expect, it, vi } from "vitest";
 import type { Progress } from "../../src/controls/tour/progress.ts";
 import type { EngineListener } from "../../src/engine/engine.ts";
+import { handOf } from "../../src/hand/hand.ts";
 import { Sentence } from "../../src/stage/sentence.ts";
 import { App } from "../../src/state/app.ts";
 import { Source } from "../../src/state/source.ts";
@@ -51,6 +52,29 @@ it("in an exercise, a page that lost control says so, and each page that nobody 
   expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Push slowly.", takeOver: false });
   control(false, null);
   expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Nobody moves the needle.", takeOver: true });
+});
+
+it("a page without control says so when its person drags or presses a key, also in a free run", () => {
+  const hand = handOf(app);
+  const attempts = [() => hand.grab(), () => hand.moveTo([0, -0.001, 0])];
+  for (const exercise of [null, { running: true, instruction: "Push slowly." } as ExerciseStatus])
+    for (const attempt of attempts) {
+      const sentence = new Sentence(app);
+      app.exercise.value = exercise;
+      app.run.value++;
+      control(false, 3);
+      expect(sentence.words([SKIN], INSIDE).takeOver).toBe(false);
+      attempt();
+      expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Another page moves the needle.", takeOver: true });
+    }
+});
+
+it("in a free run, a page that lost control says so", () => {
+  const sentence = new Sentence(app);
+  control(true, 1);
+  sentence.words([SKIN], INSIDE);
+  control(false, 3);
+  expect(sentence.words([SKIN], INSIDE)).toEqual({ text: "Another page moves the needle.", takeOver: true });
 });
 
 it("tells who could move the needle, and that the studio is gone", () => {
